@@ -1,0 +1,29 @@
+"""Period matrices of triangle meshes and polyhedral surfaces, with certified error bounds.
+
+``V, F`` in, a point of the Siegel upper half-space out, with a proof of how far it can be off.
+
+>>> import igl_periods as ip
+>>> K = ip.DeltaComplex.from_squares([((0, 0), (0, 2)), ((0, 1), (0, 3))], n=4)
+>>> ip.period_matrix(K).genus
+1
+"""
+
+from importlib.metadata import version as _version
+
+from .delta_complex import DeltaComplex as DeltaComplex
+from .errors import ComplexError as ComplexError
+from .errors import MeshError as MeshError
+from .errors import NotASiegelPointError as NotASiegelPointError
+from .half_space import siegel_distance as siegel_distance
+from .half_space import siegel_transform as siegel_transform
+from .homology import cohomology_basis as cohomology_basis
+from .homology import homology_basis as homology_basis
+from .mesh import MeshReport as MeshReport
+from .mesh import load_mesh as load_mesh
+from .periods import PeriodMatrix as PeriodMatrix
+from .pipeline import period_matrix as period_matrix
+from .pipeline import period_matrix_from_weights as period_matrix_from_weights
+from .siegel import SiegelReduction as SiegelReduction
+from .siegel import siegel_reduce as siegel_reduce
+
+__version__ = _version("igl_periods")

@@ -1,0 +1,100 @@
+"""The command ``igl-periods``: parse, call, print.
+
+Exit codes: 0 the matrix was computed, 1 the mesh was refused, 2 wrong usage.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import logging
+import sys
+from collections.abc import Sequence
+
+from .mesh import load_mesh
+from .periods import siegel_reduced
+from .pipeline import period_matrix
+from .serialization import result_to_json
+from .stages import logger, stage
+from .summary import summary
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; returns the exit code."""
+    options = _parser().parse_args(arguments)
+    if sys.stderr.isatty() and not options.quiet:
+        _show_stages()
+    try:
+        return int(options.run(options))
+    except FileNotFoundError as error:
+        return _refused(str(error))
+    except ValueError as error:
+        return _refused(f"{options.mesh}: {error}")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="igl-periods",
+        description="Period matrices of triangle meshes, with certified error bounds.",
+        epilog="Exit codes: 0 done, 1 the mesh was refused, 2 wrong usage.",
+    )
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    compute = commands.add_parser(
+        "compute",
+        help="the period matrix of a mesh",
+        description="Compute the period matrix of a closed, oriented, connected triangle mesh.",
+    )
+    compute.add_argument("mesh", metavar="MESH", help="a mesh file (OBJ, OFF, PLY, STL, …)")
+    compute.add_argument("--json", action="store_true", help="print one JSON document")
+    compute.add_argument(
+        "--weights",
+        choices=("intrinsic", "extrinsic"),
+        default="intrinsic",
+        help="measure edge weights on the surface (default), or in space (no bound)",
+    )
+    compute.add_argument(
+        "--no-delaunay",
+        dest="delaunay",
+        action="store_false",
+        help="keep the triangulation as it is (the bound is less sharp)",
+    )
+    compute.add_argument("--quiet", action="store_true", help="no stage names on the terminal")
+    compute.set_defaults(run=_compute)
+    return parser
+
+
+def _compute(options: argparse.Namespace) -> int:
+    with stage("reading the mesh"):
+        V, F, report = load_mesh(options.mesh)
+    pm = period_matrix(V, F, weights=options.weights, delaunay=options.delaunay)
+    with stage("Siegel reduction"):
+        reduced, gamma = siegel_reduced(pm)
+    if options.json:
+        document = {"mesh": report.as_dict(), **result_to_json(pm, reduced, gamma)}
+        print(json.dumps(document, indent=1))
+    else:
+        print(f"{report}\n")
+        print(summary(pm, reduced, gamma))
+    return 0
+
+
+def _refused(message: str) -> int:
+    print(f"igl-periods: {message}", file=sys.stderr)
+    return 1
+
+
+def _show_stages() -> None:
+    """Show each stage on the terminal while it runs, and its time when it is done."""
+    handler = logging.StreamHandler(sys.stderr)
+    handler.terminator = ""
+    handler.setFormatter(_StageFormatter())
+    logger.addHandler(handler)
+    logger.setLevel(logging.INFO)
+
+
+class _StageFormatter(logging.Formatter):
+    def format(self, record: logging.LogRecord) -> str:
+        name, seconds = getattr(record, "stage", None), getattr(record, "seconds", None)
+        if name is None:
+            return f"{record.getMessage()}\n"
+        return f"\r  {name} …" if seconds is None else f"\r  {name:<20} {seconds:8.2f} s\n"

@@ -1,0 +1,270 @@
+r"""Intrinsic Delaunay flips that carry cochains along.
+
+An edge is Delaunay iff the angles α and β opposite it satisfy α + β ≤ π, that is
+cot α + cot β ≥ 0, that is ρ(e) ≥ 0.  If it is not, the two triangles at it form a strictly convex
+quadrilateral when unfolded, and the edge can be replaced by the other diagonal, which is Delaunay
+then.  Flipping while there is such an edge ends, with an intrinsic Delaunay triangulation of the
+same surface on the same vertices (Bobenko, Springborn 2007).  Among all triangulations of these
+vertices it has the least Dirichlet energy (Rippa 1990), hence the sharpest certificate.
+
+The new diagonal joins two corners, so that a closed cochain takes on it the sum of its values on
+two sides of the quadrilateral.  In this way integer cochains, and with them the marking of the
+period matrix, pass exactly to the flipped triangulation, whatever multi-edges and loops it gets.
+
+Flips of edges that share no face commute.  Each round flips an independent set of bad edges at
+once, chosen at random but always the same.
+
+References
+----------
+Fisher, Springborn, Schröder, Bobenko, "An algorithm for the construction of intrinsic Delaunay
+triangulations with applications to digital geometry processing" (2007).
+Bobenko, Springborn, "A discrete Laplace–Beltrami operator for simplicial surfaces" (2007).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_array, vstack
+
+from .delta_complex import DeltaComplex
+from .errors import ComplexError
+from .gluing import next_corner
+from .triangles import cotangents, double_areas, is_strict
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+# Edges this close to cocircular are left alone: flipped by rounding, they would flip for ever.
+_TOLERANCE = 1e-12
+_ULPS = 8 * np.finfo(np.float64).eps
+_MOST_ROUNDS = 100_000
+_COCHAINS_AT_ONCE = 32
+
+
+@dataclass(frozen=True, eq=False)
+class Flips:
+    """One round of flips: the edges flipped, and the cochain on each in terms of its sides.
+
+    ``c[edge] = first_sign c[first] + second_sign c[second]`` for every closed cochain c.
+    """
+
+    edge: Ints
+    first: Ints
+    first_sign: NDArray[np.int8]
+    second: Ints
+    second_sign: NDArray[np.int8]
+
+
+def intrinsic_delaunay(K: DeltaComplex, cochains: csr_array) -> tuple[DeltaComplex, csr_array]:
+    """Flip edges until all are Delaunay, and carry closed cochains along.
+
+    Parameters
+    ----------
+    K : DeltaComplex
+        Closed and oriented.
+    cochains : (k, n_edges) sparse int
+        Closed.
+
+    Returns
+    -------
+    K : DeltaComplex
+        The same surface and vertices; ``K`` itself if every edge is Delaunay.
+    cochains : (k, n_edges) sparse int
+        The same cohomology classes.  Edges that are not flipped keep their index, direction and
+        values; a flipped edge passes its index on to the new diagonal.
+
+    Raises
+    ------
+    ComplexError
+        If flipping does not end, which only rounding on extreme triangles could cause.
+    """
+    flipped, rounds = delaunay_flips(K)
+    return flipped, transport(cochains, rounds)
+
+
+def delaunay_flips(K: DeltaComplex) -> tuple[DeltaComplex, list[Flips]]:
+    """The intrinsic Delaunay complex, and the rounds of flips that lead to it."""
+    mesh = _FlippableMesh.of(K)
+    suspects = mesh.bad_edges(np.arange(K.n_edges))
+    if suspects.size == 0:
+        return K, []
+    order = np.random.default_rng(0)
+    rounds: list[Flips] = []
+    while suspects.size:
+        if len(rounds) == _MOST_ROUNDS:
+            raise ComplexError(
+                f"Delaunay flips did not end in {_MOST_ROUNDS} rounds: rounding decides about "
+                "extreme triangles. Remesh them, or compute without flips (delaunay=False)."
+            )
+        chosen, waiting = mesh.independent(order.permutation(suspects))
+        flips, touched = mesh.flip(chosen)
+        rounds.append(flips)
+        suspects = mesh.bad_edges(np.union1d(touched, waiting))
+    flipped = replace(
+        K,
+        lengths=mesh.lengths.reshape(-1, 3),
+        twin=mesh.twin.reshape(-1, 3),
+        edge=mesh.edge.reshape(-1, 3),
+        sign=mesh.sign.reshape(-1, 3),
+        corner_vertex=mesh.corner_vertex.reshape(-1, 3),
+    )
+    return flipped, rounds
+
+
+def transport(cochains: csr_array, rounds: list[Flips]) -> csr_array:
+    """Values of closed cochains after the flips; (k, n_edges) sparse int."""
+    if not rounds:
+        return cochains
+    blocks = []
+    for start in range(0, max(cochains.shape[0], 1), _COCHAINS_AT_ONCE):
+        block = cochains[start : start + _COCHAINS_AT_ONCE].toarray()
+        by_edge = np.ascontiguousarray(block.T)
+        for flips in rounds:
+            by_edge[flips.edge] = (
+                flips.first_sign[:, None] * by_edge[flips.first]
+                + flips.second_sign[:, None] * by_edge[flips.second]
+            )
+        blocks.append(csr_array(by_edge.T))
+    return csr_array(vstack(blocks, format="csr"))
+
+
+@dataclass(eq=False)
+class _FlippableMesh:
+    """The arrays of a complex, flat by half-edge, while edges are being flipped."""
+
+    lengths: Floats
+    twin: Ints
+    edge: Ints
+    sign: NDArray[np.int8]
+    corner_vertex: Ints
+    cotangents: Floats
+    half_edge: Ints  # of each edge, the half-edge that runs with it
+    slot: Ints  # scratch: where a half-edge moves to; the identity between rounds
+    owner: Ints  # scratch: which edge claims a face
+
+    @classmethod
+    def of(cls, K: DeltaComplex) -> _FlippableMesh:
+        half_edge = np.empty(K.n_edges, dtype=np.int64)
+        forward = np.flatnonzero(K.sign.ravel() > 0)
+        half_edge[K.edge.ravel()[forward]] = forward
+        return cls(
+            lengths=K.lengths.flatten(),
+            twin=K.twin.flatten(),
+            edge=K.edge.flatten(),
+            sign=K.sign.flatten(),
+            corner_vertex=K.corner_vertex.flatten(),
+            cotangents=cotangents(K.lengths).ravel(),
+            half_edge=half_edge,
+            slot=np.arange(K.twin.size),
+            owner=np.empty(K.n_faces, dtype=np.int64),
+        )
+
+    def bad_edges(self, edges: Ints) -> Ints:
+        """Those of the edges that are not Delaunay, beyond rounding.
+
+        An edge with the same face on both sides never is: the two angles are of one triangle.
+        """
+        h = self.half_edge[edges]
+        cot_here, cot_there = self.cotangents[h], self.cotangents[self.twin[h]]
+        allowance = _TOLERANCE + _ULPS * (np.abs(cot_here) + np.abs(cot_there))
+        return edges[cot_here + cot_there < -allowance]
+
+    def independent(self, edges: Ints) -> tuple[Ints, Ints]:
+        """Split edges into some that share no face, and the rest."""
+        h = self.half_edge[edges]
+        faces = np.stack([h // 3, self.twin[h] // 3], axis=1)
+        rank = np.arange(edges.size)
+        # The last claim on a face holds, so the last edge always keeps both of its faces.
+        self.owner[faces.ravel()] = np.repeat(rank, 2)
+        free = (self.owner[faces] == rank[:, None]).all(axis=1)
+        return edges[free], edges[~free]
+
+    def flip(self, edges: Ints) -> tuple[Flips, Ints]:
+        r"""Flip edges that share no face; also returns the edges around them.
+
+        Seen from the half-edge h from A to B, with p opposite in its face and q opposite in the
+        other face, the faces p A B and q B A become p A q and q B p::
+
+                   p                        p
+                 /   \                    / | \
+               A —h—> B        →         A  |  B
+                 \   /                    \ | /
+                   q                        q
+        """
+        edges, h, diagonal = self._flippable(edges)
+        t = self.twin[h]
+        bp, pa, aq, qb = next_corner(h, 1), next_corner(h, 2), next_corner(t, 1), next_corner(t, 2)
+        here, there = 3 * (h // 3), 3 * (t // 3)
+        p, a, q, b = (self.corner_vertex[corner] for corner in (h, bp, t, aq))
+        old = np.concatenate([aq, pa, bp, qb])
+        new = np.concatenate([here, here + 2, there, there + 2])
+        flips = Flips(edges, self.edge[aq], -self.sign[aq], self.edge[pa], -self.sign[pa])
+
+        self._move(old, new)
+        self._place_diagonal(edges, here + 1, there + 1, diagonal)
+        for corner, vertex in zip(range(3), (p, a, q), strict=True):
+            self.corner_vertex[here + corner] = vertex
+        for corner, vertex in zip(range(3), (q, b, p), strict=True):
+            self.corner_vertex[there + corner] = vertex
+        faces = np.concatenate([here, there])[:, None] + np.arange(3)
+        self.cotangents[faces] = cotangents(self.lengths[faces])
+        return flips, self.edge[new]
+
+    def _flippable(self, edges: Ints) -> tuple[Ints, Ints, Floats]:
+        """The edges, their half-edges and new diagonals, where both new triangles are strict.
+
+        Rounding can make a new triangle of a needle degenerate; such an edge stays as it is.
+        """
+        h = self.half_edge[edges]
+        t = self.twin[h]
+        diagonal = self._diagonal(h, t)
+        strict = np.ones(edges.size, dtype=bool)
+        for one, other in (
+            (next_corner(h, 2), next_corner(t, 1)),
+            (next_corner(h, 1), next_corner(t, 2)),
+        ):
+            triangle = np.stack([self.lengths[one], self.lengths[other], diagonal], axis=1)
+            strict &= is_strict(triangle)
+        return edges[strict], h[strict], diagonal[strict]
+
+    def _diagonal(self, h: Ints, t: Ints) -> Floats:
+        """Distance of p and q when the two faces are unfolded into the plane."""
+        base = self.lengths[h]
+        pa, pb = self.lengths[next_corner(h, 2)], self.lengths[next_corner(h, 1)]
+        qa, qb = self.lengths[next_corner(t, 1)], self.lengths[next_corner(t, 2)]
+        height = (
+            double_areas(np.stack([base, pa, pb], 1)) + double_areas(np.stack([base, qa, qb], 1))
+        ) / base
+        # Feet of the heights, measured from the nearer end of the base: that keeps digits where
+        # p and q lie close to it.
+        from_a = _foot(base, pa, pb) - _foot(base, qa, qb)
+        from_b = _foot(base, qb, qa) - _foot(base, pb, pa)
+        along = np.where(pa + qa < pb + qb, from_a, from_b)
+        return np.hypot(along, height)
+
+    def _move(self, old: Ints, new: Ints) -> None:
+        """Move half-edges to new places, with all that belongs to them."""
+        self.slot[old] = new
+        twin = self.slot[self.twin[old]]
+        self.slot[old] = old
+        self.lengths[new], self.sign[new] = self.lengths[old], self.sign[old]
+        self.edge[new] = self.edge[old]
+        self.twin[new] = twin
+        self.twin[twin] = new
+        forward = self.sign[new] > 0
+        self.half_edge[self.edge[new[forward]]] = new[forward]
+
+    def _place_diagonal(self, edges: Ints, h: Ints, t: Ints, length: Floats) -> None:
+        self.lengths[h] = self.lengths[t] = length
+        self.edge[h] = self.edge[t] = edges
+        self.sign[h], self.sign[t] = 1, -1
+        self.twin[h], self.twin[t] = t, h
+        self.half_edge[edges] = h
+
+
+def _foot(base: Floats, near: Floats, far: Floats) -> Floats:
+    """Distance along the base from its near end to the foot of the height."""
+    return 0.5 * (base + (near - far) * ((near + far) / base))

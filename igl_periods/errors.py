@@ -1,0 +1,16 @@
+"""The errors of the library: all of them are ``ValueError``, so one ``except`` catches them.
+
+A message says what failed, with numbers, the likely cause, and what to do about it.
+"""
+
+
+class MeshError(ValueError):
+    """The arrays or the file handed over describe no triangulated surface."""
+
+
+class ComplexError(ValueError):
+    """A gluing, its lengths or its weights do not describe a surface with a period matrix."""
+
+
+class NotASiegelPointError(ValueError):
+    """A matrix outside the Siegel upper half-space: asymmetric, or Im not positive definite."""

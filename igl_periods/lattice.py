@@ -1,0 +1,148 @@
+r"""Lattice reduction and short vectors of positive definite quadratic forms.
+
+A real positive definite matrix Y is a quadratic form on Z^n, or a lattice with a basis.  An
+integer matrix U of determinant ±1 changes the basis, Y → U Y Uᵀ.
+
+A basis is *LLL-reduced* if, for its Gram–Schmidt coefficients μ and heights h,
+
+.. math:: |\mu_{ij}| \le \eta, \qquad h_i \ge (\delta - \mu_{i,i-1}^2)\, h_{i-1},
+
+here with δ = 0.99 and η = 0.51.  Its first vector is short, but the shortest vector is found by
+enumeration only: completing squares,
+
+.. math:: x^T Y x = \sum_i q_i \Big( x_i + \sum_{j>i} q_{ij} x_j \Big)^2 ,
+
+bounds x_n, then x_{n−1} given x_n, and so on.  Everything is done here on all partial vectors of
+a level at once.
+
+References
+----------
+Lenstra, Lenstra, Lovász, "Factoring polynomials with rational coefficients" (1982).
+Fincke, Pohst, "Improved methods for calculating vectors of short length in a lattice" (1985).
+"""
+
+from __future__ import annotations
+
+import flint
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+# Bits kept of the smallest eigenvalue when a form is rounded to integers.
+_BITS = 40
+# Partial vectors handled at one level before an enumeration counts as too large.
+ENUMERATION_LIMIT = 2_000_000
+
+
+class EnumerationLimitError(RuntimeError):
+    """An enumeration of short vectors passed its work limit and was given up."""
+
+
+def lll_basis(Y: Floats) -> Ints:
+    """An LLL-reduced basis: integer U, det U = ±1, such that ``U Y Uᵀ`` is LLL-reduced.
+
+    Parameters
+    ----------
+    Y : (n, n) float
+        Symmetric, positive definite.  It is rounded to integers relative to its smallest
+        eigenvalue, so that the form may be as far from round as floating point allows.
+    """
+    n = len(Y)
+    if n < 2:
+        return np.eye(n, dtype=np.int64)
+    least = max(float(np.linalg.eigvalsh(Y)[0]), np.finfo(float).eps * float(np.trace(Y)))
+    scaled = np.ldexp(Y, _BITS - int(np.floor(np.log2(least))))
+    form = flint.fmpz_mat([[int(v) for v in row] for row in np.rint(0.5 * (scaled + scaled.T))])
+    _, U = form.lll(True, 0.99, 0.51, "gram")
+    return int_array(U)
+
+
+def short_vectors(Y: Floats, bound: float, limit: int = ENUMERATION_LIMIT) -> tuple[Ints, Floats]:
+    """All integer vectors x with ``xᵀ Y x ≤ bound``, 0 and both signs included.
+
+    The bound is widened by 1e-9 of itself, so that rounding loses no vector.
+
+    Parameters
+    ----------
+    Y : (n, n) float
+        Symmetric, positive definite; reduced, or the enumeration is slow.
+    bound : float
+    limit : int
+        Most partial vectors at a level.
+
+    Returns
+    -------
+    vectors : (N, n) int
+    values : (N,) float
+        ``xᵀ Y x`` of each, increasing.
+
+    Raises
+    ------
+    EnumerationLimitError
+        If more than ``limit`` partial vectors occur.
+    """
+    n = len(Y)
+    R = np.linalg.cholesky(Y[::-1, ::-1])[::-1, ::-1].T  # lower triangular, Y = Rᵀ R
+    vectors, room = np.zeros((1, n), dtype=np.int64), np.full(1, bound * (1 + 1e-9))
+    for i in range(n):
+        centre = -(vectors[:, :i] @ R[i, :i]) / R[i, i]
+        radius = np.sqrt(room) / R[i, i]
+        low, high = np.ceil(centre - radius), np.floor(centre + radius)
+        count = np.maximum(high - low + 1, 0).astype(np.int64)
+        if count.sum() > limit:
+            raise EnumerationLimitError(
+                f"more than {limit} partial vectors at level {i + 1} of {n} in the enumeration of "
+                f"vectors with square at most {bound:.6g}"
+            )
+        parent = np.repeat(np.arange(len(count)), count)
+        step = np.arange(len(parent)) - np.repeat(np.cumsum(count) - count, count)
+        vectors = vectors[parent]
+        vectors[:, i] = low[parent].astype(np.int64) + step
+        used = (R[i, i] * (vectors[:, i] - centre[parent])) ** 2
+        room = np.maximum(room[parent] - used, 0.0)
+    values = np.einsum("ni,ij,nj->n", vectors, Y, vectors, optimize=True)
+    order = np.argsort(values, kind="stable")
+    return vectors[order], values[order]
+
+
+def shortest_first(Y: Floats) -> Ints:
+    """An LLL-reduced basis whose first vector is a shortest one (to 1e-6); as :func:`lll_basis`.
+
+    A shortest vector is primitive.  It is completed to a basis by a Hermite normal form, and the
+    Lovász condition never exchanges it afterwards.
+    """
+    U = lll_basis(Y)
+    if len(Y) < 2:
+        return U
+    reduced = U @ Y @ U.T
+    vectors, values = short_vectors(reduced, float(reduced[0, 0]) * (1 - 1e-6))
+    if len(values) < 2:
+        return U
+    U = _completed(vectors[1]) @ U
+    return lll_basis(U @ Y @ U.T) @ U
+
+
+def _completed(x: Ints) -> Ints:
+    """A unimodular matrix with the primitive vector x as first row."""
+    n = len(x)
+    # In the Hermite normal form (e_1 | W) of (x | 1) the right part has W x = e_1.
+    table = flint.fmpz_mat(np.column_stack([x, np.eye(n, dtype=np.int64)]).tolist()).hnf()
+    W = int_array(table)[:, 1:]
+    return unimodular_inverse(W).T
+
+
+def int_array(M: flint.fmpz_mat) -> Ints:
+    """The entries as an int64 array; OverflowError if one does not fit."""
+    entries = [int(v) for v in M.entries()]
+    return np.array(entries, dtype=np.int64).reshape(M.nrows(), M.ncols())
+
+
+def unimodular_inverse(U: Ints) -> Ints:
+    """The exact inverse of an integer matrix of determinant ±1."""
+    matrix = flint.fmpz_mat(U.tolist()) if len(U) else flint.fmpz_mat(0, 0)
+    # The integer inverse of python-flint may lack the sign of the determinant.
+    inverse = matrix.inv(True)
+    identity = flint.fmpz_mat(np.eye(len(U), dtype=np.int64).tolist()) if len(U) else matrix
+    return int_array(inverse if inverse * matrix == identity else -inverse)

@@ -1,0 +1,231 @@
+r"""The period matrix of a surface, and how far it can be off.
+
+Holomorphic forms ζ_1..ζ_g are normalised by :math:`\oint_{a_l} \zeta_k = \delta_{kl}`; the period
+matrix is :math:`\Pi_{kl} = \oint_{b_l} \zeta_k = X + iY`, symmetric with Y > 0.  It is read off the
+Dirichlet matrix D of a canonical basis of integer cohomology
+(:mod:`igl_periods.symplectic`).  A discrete D is symplectic only approximately, and gives
+
+========  =========================  =================================  ==========================
+name      X                          Y
+========  =========================  =================================  ==========================
+primal    −D_ab D_bb⁻¹               D_bb⁻¹                             b-periods along cycles on Γ
+dual      −D_bb⁻¹ D_ba               D_aa − D_ab D_bb⁻¹ D_ba            b-periods along cycles on Γ*
+mean      average of the two                                            the paper's Ω_D
+matrix    of the symplectic mean G of D (:func:`igl_periods.symplectic.williamson`)
+========  =========================  =================================  ==========================
+
+Primal and dual are not symmetric in general, and like their mean they depend on the basis.  The
+symplectic mean is symmetric and does not; it is exact wherever the symmetries of the
+discretisation determine the surface.
+
+**The certificate.**  If D is a matrix of energies of closed forms on the surface itself, then
+D ≥ D_exact by Dirichlet's principle, and since D_exact is symplectic
+
+.. math:: J D^{-1} J^T \le D_{exact} \le D .
+
+With d the largest symplectic eigenvalue of D it follows for the symplectic mean Π = X + iY that
+
+.. math:: \| Y^{-1/2} (\Pi_{exact} - \Pi) Y^{-1/2} \|_2 \le d - 1, \qquad
+          |\Pi_{exact} - \Pi|_{ij} \le (d - 1) \sqrt{Y_{ii} Y_{jj}},
+
+and Im primal ≤ Im Π_exact ≤ Im dual.  This is about the conformal structure of the *polyhedral*
+surface, whose triangles have the stored side lengths; it says nothing about a smooth surface that
+a mesh samples.
+
+References
+----------
+Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 3.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.sparse import csr_array
+
+from .delta_complex import DeltaComplex
+from .errors import ComplexError
+from .rounding import LEAST_ALLOWANCE, algebraic_allowance, congruence
+from .siegel import siegel_reduce
+from .symplectic import (
+    checked_symplectic,
+    cholesky_factor,
+    form_action,
+    siegel_point,
+    williamson,
+)
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+_MOST_REDUCTIONS = 8
+
+
+@dataclass(frozen=True, eq=False)
+class PeriodMatrix:
+    """A period matrix with its certificate and its marking.
+
+    ``numpy.asarray(pm)`` is ``pm.matrix``.  All arrays are read-only.
+
+    Attributes
+    ----------
+    dirichlet : (2g, 2g) float
+        Energies ∫ ω_i ∧ *ω_j of the discrete harmonic forms in the classes of ``cocycles``.
+    certified : bool
+        Whether they are energies of forms on the surface itself, so that there is a bound.
+    cocycles : (2g, n_edges) sparse int
+        The marking: closed cochains α_1..α_g, β_1..β_g on the edges of ``complex``.
+    complex : DeltaComplex
+        The surface as it was given, before any flip.
+    rounding : float
+        What the bound allows for floating-point errors in ``dirichlet``, relative like itself.
+    """
+
+    dirichlet: Floats
+    certified: bool
+    cocycles: csr_array
+    complex: DeltaComplex
+    rounding: float = LEAST_ALLOWANCE
+
+    def __post_init__(self) -> None:
+        D = np.array(self.dirichlet, dtype=np.float64)
+        if D.ndim != 2 or D.shape[0] != D.shape[1] or D.shape[0] % 2:
+            raise ComplexError(f"a Dirichlet matrix has shape (2g, 2g), not {D.shape}.")
+        if not np.isfinite(D).all():
+            raise ComplexError("the Dirichlet matrix has entries that are not finite.")
+        cholesky_factor(D)
+        object.__setattr__(self, "dirichlet", _read_only(0.5 * (D + D.T)))
+
+    @property
+    def genus(self) -> int:
+        """The genus g."""
+        return len(self.dirichlet) // 2
+
+    @cached_property
+    def _williamson(self) -> tuple[Floats, Floats]:
+        return williamson(self.dirichlet)
+
+    @property
+    def symplectic_eigenvalues(self) -> Floats:
+        """Symplectic eigenvalues of ``dirichlet``, decreasing; (g,).  All 1 iff it is exact."""
+        return _read_only(self._williamson[0])
+
+    @cached_property
+    def matrix(self) -> Complexes:
+        """The period matrix Π, from the symplectic mean; (g, g) complex, symmetric."""
+        return _read_only(siegel_point(self._williamson[1]))
+
+    @property
+    def riemann_matrix(self) -> Complexes:
+        """The same as ``matrix``: what algebraists call the Riemann matrix."""
+        return self.matrix
+
+    @cached_property
+    def primal(self) -> Complexes:
+        """Periods along cycles on Γ: −D_ab D_bb⁻¹ + i D_bb⁻¹; (g, g), not symmetric in general."""
+        _, ab, _, bb = self._blocks()
+        inverse = np.linalg.inv(bb)
+        return _read_only(-ab @ inverse + 1j * inverse)
+
+    @cached_property
+    def dual(self) -> Complexes:
+        """Periods along cycles on Γ*: −D_bb⁻¹ D_ba + i (D_aa − D_ab D_bb⁻¹ D_ba); (g, g)."""
+        aa, ab, ba, bb = self._blocks()
+        quotient = np.linalg.solve(bb, ba)
+        return _read_only(-quotient + 1j * (aa - ab @ quotient))
+
+    @cached_property
+    def mean(self) -> Complexes:
+        """The average of ``primal`` and ``dual``, the paper's Ω_D; (g, g), symmetric."""
+        return _read_only(0.5 * (self.primal + self.dual))
+
+    @property
+    def bound(self) -> float | None:
+        """Certified bound of ‖Y^{-1/2} (Π_exact − Π) Y^{-1/2}‖₂, or None without a certificate.
+
+        Π_exact is the period matrix of the polyhedral surface ``complex`` in the same marking,
+        Π = ``matrix`` and Y its imaginary part.
+        """
+        if not self.certified:
+            return None
+        if self.genus == 0:
+            return 0.0
+        return max(float(self.symplectic_eigenvalues[0]) - 1.0, 0.0) + self.rounding_allowance
+
+    @cached_property
+    def rounding_allowance(self) -> float:
+        """What the bound contains for floating-point errors, in D and in what follows from it."""
+        return self.rounding + algebraic_allowance(self.dirichlet)
+
+    @property
+    def entry_bounds(self) -> Floats | None:
+        """Certified bounds of the entries of Π_exact − Π, ``bound`` √(Y_ii Y_jj); (g, g)."""
+        if self.bound is None:
+            return None
+        scale = np.sqrt(np.diag(self.matrix.imag))
+        return _read_only(self.bound * np.outer(scale, scale))
+
+    def reduced(self) -> PeriodMatrix:
+        """The same surface with a Siegel-reduced matrix; see :func:`siegel_reduce`."""
+        return siegel_reduced(self)[0]
+
+    def change_basis(self, gamma: ArrayLike) -> PeriodMatrix:
+        """The same surface in another canonical basis: Π ↦ (aΠ + b)(cΠ + d)⁻¹.
+
+        Parameters
+        ----------
+        gamma : (2g, 2g) int
+            [[a, b], [c, d]] in Sp(2g, Z).
+
+        Raises
+        ------
+        ValueError
+            If gamma is no integer symplectic matrix of this size.
+        """
+        U = form_action(checked_symplectic(gamma, self.genus))
+        D, loss = congruence(U, self.dirichlet)
+        return PeriodMatrix(
+            dirichlet=D,
+            certified=self.certified,
+            cocycles=csr_array(csr_array(U) @ self.cocycles),
+            complex=self.complex,
+            rounding=self.rounding + loss,
+        )
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
+        if copy:
+            return np.array(self.matrix, dtype=dtype)
+        return np.asarray(self.matrix, dtype=dtype)
+
+    def __repr__(self) -> str:
+        bound = "not certified" if self.bound is None else f"bound {self.bound:.3g}"
+        matrix = np.array2string(self.matrix, precision=6, suppress_small=True, threshold=36)
+        return f"PeriodMatrix of genus {self.genus}, {bound}\n{matrix}"
+
+    def _blocks(self) -> tuple[Floats, Floats, Floats, Floats]:
+        g, D = self.genus, self.dirichlet
+        return D[:g, :g], D[:g, g:], D[g:, :g], D[g:, g:]
+
+
+def siegel_reduced(pm: PeriodMatrix) -> tuple[PeriodMatrix, NDArray[np.int64]]:
+    """The same surface with a Siegel-reduced matrix, and the γ that leads to it.
+
+    The matrix is computed anew from its Dirichlet matrix in the new marking, where it is better
+    conditioned; so the reduction is repeated until there is nothing left to reduce.
+    """
+    total = np.eye(2 * pm.genus, dtype=np.int64)
+    for _ in range(_MOST_REDUCTIONS):
+        gamma = siegel_reduce(pm.matrix).gamma
+        if np.array_equal(gamma, np.eye(2 * pm.genus)):
+            break
+        pm, total = pm.change_basis(gamma), gamma @ total
+    return pm, total
+
+
+def _read_only(array: NDArray[Any]) -> NDArray[Any]:
+    array.flags.writeable = False
+    return array

@@ -1,0 +1,170 @@
+"""From a surface to its period matrix: the steps, one after the other.
+
+    V, F ─ delta_complex ▶ K ─ homology ▶ cochains ─ delaunay ▶ K′, cochains′
+         ─ harmonic ▶ D ─ periods ▶ Π, bound
+
+The basis of homology is chosen once, on the surface as it is given, and the cochains carry it
+through all that follows.  So the matrices of every option are in the same marking, and can be
+compared entry by entry.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.sparse import csr_array
+
+from .delaunay import intrinsic_delaunay
+from .delta_complex import DeltaComplex, cotan_weights, extrinsic_weights
+from .errors import ComplexError, MeshError
+from .harmonic import dirichlet_matrix, harmonic_potentials, weighted_energies
+from .homology import cochains_and_basis
+from .periods import PeriodMatrix
+from .rounding import LEAST_ALLOWANCE, congruence, geometric_allowance
+from .stages import stage
+from .validation import check_equal_when_glued
+
+Floats = NDArray[np.float64]
+
+
+def period_matrix(
+    surface: DeltaComplex | ArrayLike,
+    F: ArrayLike | None = None,
+    *,
+    weights: str = "intrinsic",
+    delaunay: bool = True,
+) -> PeriodMatrix:
+    """Compute the period matrix of a closed, oriented, connected polyhedral surface.
+
+    Parameters
+    ----------
+    surface : (n, d) array-like or DeltaComplex
+        Vertex positions V of a triangle mesh, or a complex.
+    F : (m, 3) array-like of int, optional
+        Corners of the triangles, with V.
+    weights : {"intrinsic", "extrinsic"}
+        How ρ is measured: on the surface (cotangents), or between circumcentres in space, on the
+        triangulation as given.  There is no certificate for extrinsic weights.
+    delaunay : bool
+        Make the triangulation intrinsically Delaunay first.  The surface stays the same; the
+        bound gets sharper.
+
+    Returns
+    -------
+    PeriodMatrix
+        Of genus 0: a 0 × 0 matrix.
+
+    Raises
+    ------
+    MeshError
+        If V and F are no triangulated surface (:meth:`DeltaComplex.from_mesh`).
+    ComplexError
+        If the surface is not closed, oriented and connected, its triangles are too degenerate, or
+        the weights define no positive definite energy.
+
+    Examples
+    --------
+    >>> from igl_periods import DeltaComplex, period_matrix
+    >>> torus = DeltaComplex.from_squares([((0, 0), (0, 2)), ((0, 1), (0, 3))])
+    >>> pm = period_matrix(torus)
+    >>> pm.genus, abs(pm.reduced().matrix[0, 0] - 1j) < 1e-12, pm.bound < 1e-12
+    (1, np.True_, True)
+    """
+    K = as_complex(surface, F)
+    if weights == "intrinsic":
+        return _certified(K, delaunay)
+    if weights == "extrinsic":
+        return _uncertified(K, extrinsic_weights(K))
+    raise ValueError(f'weights must be "intrinsic" or "extrinsic", not {weights!r}.')
+
+
+def period_matrix_from_weights(rho: ArrayLike, twin: ArrayLike) -> PeriodMatrix:
+    """Compute the period matrix of an abstract discrete conformal structure.
+
+    Parameters
+    ----------
+    rho : (m, 3) array-like
+        The weight of each side, equal on glued sides.
+    twin : (m, 3) array-like of int
+        The gluing, as in :meth:`DeltaComplex.from_gluing`.
+
+    Returns
+    -------
+    PeriodMatrix
+        Without a certificate.  Its ``complex`` has the combinatorics; its lengths are all 1 and
+        mean nothing.
+
+    Raises
+    ------
+    ComplexError
+        If the gluing or the weights are malformed, weights differ on glued sides, the surface is
+        not closed and connected, or the energy is not positive definite.
+    """
+    K = DeltaComplex.from_gluing(np.ones(np.shape(twin)), twin)
+    return _uncertified(K, _edge_weights(K, rho))
+
+
+def as_complex(surface: Any, F: ArrayLike | None = None) -> DeltaComplex:
+    """The Δ-complex of ``(V, F)``, or ``surface`` itself if it is one."""
+    if isinstance(surface, DeltaComplex):
+        if F is not None:
+            raise MeshError("a DeltaComplex has its own faces: leave F away.")
+        return surface
+    if F is None:
+        raise MeshError("faces are missing: call period_matrix(V, F), or period_matrix(K).")
+    with stage("surface"):
+        return DeltaComplex.from_mesh(surface, F)
+
+
+def _certified(K: DeltaComplex, delaunay: bool) -> PeriodMatrix:
+    with stage("homology"):
+        cochains, T = cochains_and_basis(K)
+    flipped, carried = K, cochains
+    if delaunay:
+        with stage("Delaunay flips"):
+            flipped, carried = intrinsic_delaunay(K, cochains)
+    with stage("harmonic forms"):
+        potentials = harmonic_potentials(flipped, cotan_weights(flipped), carried)
+    with stage("period matrix"):
+        raw = dirichlet_matrix(flipped, carried, potentials)
+        allowance = geometric_allowance(flipped, carried, potentials, raw)
+        D, loss = congruence(T, raw)
+        return PeriodMatrix(
+            dirichlet=D,
+            certified=True,
+            cocycles=_combined(T, cochains),
+            complex=K,
+            rounding=max(LEAST_ALLOWANCE, allowance + loss),
+        )
+
+
+def _uncertified(K: DeltaComplex, rho: Floats) -> PeriodMatrix:
+    with stage("homology"):
+        cochains, T = cochains_and_basis(K)
+    with stage("harmonic forms"):
+        potentials = harmonic_potentials(K, rho, cochains)
+    with stage("period matrix"):
+        D = T @ weighted_energies(K, rho, cochains, potentials) @ T.T
+        return PeriodMatrix(D, certified=False, cocycles=_combined(T, cochains), complex=K)
+
+
+def _combined(T: NDArray[np.int8], cochains: csr_array) -> csr_array:
+    return csr_array(csr_array(T.astype(np.int64)) @ cochains)
+
+
+def _edge_weights(K: DeltaComplex, rho: ArrayLike) -> Floats:
+    array = np.asarray(rho)
+    if array.shape != K.twin.shape or array.dtype.kind not in "iuf":
+        raise ComplexError(
+            f"rho must be a real array of the shape of twin, {K.twin.shape}, not {array.shape} "
+            f"of {array.dtype}."
+        )
+    values = array.astype(np.float64)
+    if not np.isfinite(values).all():
+        raise ComplexError("rho has entries that are NaN or infinite.")
+    check_equal_when_glued(values, K.twin, "weights")
+    weights = np.empty(K.n_edges)
+    weights[K.edge.ravel()] = values.ravel()
+    return weights

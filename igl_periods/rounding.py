@@ -1,0 +1,102 @@
+r"""How much of a certified bound is owed to floating-point arithmetic.
+
+The certificate :math:`J D^{-1} J^T \le D_{exact} \le D` is a theorem about exact numbers.  What is
+computed differs from them in two ways, and each is bounded here relative to D itself, in the
+sense :math:`|\xi^T \delta D\, \xi| \le r\, \xi^T D\, \xi`.
+
+*Geometry.*  The lengths of a flipped edge are rounded, and energies are computed from rounded
+areas.  If the sides of a triangle change by a relative ε, its metric, hence the energy of any
+form on it, changes by at most a factor 1 ± εs with
+
+.. math:: s = \frac{l_0 l_1 l_2 (l_0 + l_1 + l_2)}{2 A^2}
+
+(write the metric as :math:`\sum_i l_i^2 B_i` with :math:`B_i(v, v) = - n_{i+1}(v)\, n_{i+2}(v) /
+4 A^2`, n_i the covector of length l_i that vanishes on side i).  s is 8 for an equilateral
+triangle, 4/θ for a needle of angle θ, and of order 1/θ² for a cap of angle π − θ.  But thin
+triangles carry little energy: so the sum of :math:`\epsilon s_f D_f` over the faces is compared
+with D as a matrix, instead of taking the worst s.
+
+*Algebra.*  The Gram matrix is accurate to a few ulps of :math:`\sqrt{D_{ii} D_{jj}}` in the basis
+in which it is computed; a change of basis U D Uᵀ adds such errors up, and loses digits where it
+subtracts nearly parallel forms.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.linalg
+from numpy.typing import NDArray
+from scipy.sparse import csr_array
+
+from .delta_complex import DeltaComplex
+from .harmonic import dirichlet_matrix
+from .symplectic import cholesky_factor
+from .triangles import double_areas
+
+Floats = NDArray[np.float64]
+
+LEAST_ALLOWANCE = 1e-13
+
+_ERROR = 4 * float(np.finfo(np.float64).eps)
+# Faces up to this sensitivity are taken together: most are far below it.
+_ORDINARY = 100.0
+
+
+def length_sensitivity(lengths: Floats) -> Floats:
+    """The relative change of metric of each triangle per relative change of its sides; (m,)."""
+    return 2.0 * lengths.prod(axis=1) * lengths.sum(axis=1) / double_areas(lengths) ** 2
+
+
+def geometric_allowance(
+    K: DeltaComplex, cochains: csr_array, potentials: Floats, D: Floats
+) -> float:
+    """Relative error of D that rounded lengths and areas can cause.
+
+    Parameters
+    ----------
+    K, cochains, potentials
+        What D was computed from, with :func:`igl_periods.harmonic.dirichlet_matrix`.
+    D : (k, k) float
+    """
+    sensitivity = length_sensitivity(K.lengths)
+    extreme = np.where(sensitivity > _ORDINARY, sensitivity, 0.0)
+    if len(D) == 0 or not extreme.any():
+        return _ERROR * _ORDINARY
+    loss = dirichlet_matrix(K, cochains, potentials, extreme)
+    inverse = _inverse(cholesky_factor(D))
+    return _ERROR * (_ORDINARY + float(np.linalg.norm(inverse @ loss @ inverse.T, 2)))
+
+
+def congruence(U: NDArray[np.integer], D: Floats) -> tuple[Floats, float]:
+    """U D Uᵀ, and the relative error of the result that rounding in D can cause.
+
+    With |δD_ij| ≤ ε √(D_ii D_jj) the error of U D Uᵀ is at most ε t tᵀ entry by entry, where
+    t = |U| √diag(D), and relative to U D Uᵀ = R Rᵀ at most ε ‖ |R⁻¹| t ‖².
+    """
+    changed = U @ D @ U.T
+    changed = 0.5 * (changed + changed.T)
+    if len(D) == 0:
+        return changed, 0.0
+    inverse = _inverse(cholesky_factor(changed))
+    t = np.abs(U) @ np.sqrt(np.diag(D))
+    return changed, _ERROR * float(np.sum((np.abs(inverse) @ t) ** 2))
+
+
+def algebraic_allowance(D: Floats) -> float:
+    """Relative error of the symplectic mean, and of Π, that rounding after D can cause.
+
+    With D = R Rᵀ they are computed from Rᵀ J R, which is accurate to ε |Rᵀ| |J| |R|, and by
+    inverting a block of D, which is :func:`congruence` with U = 1.
+    """
+    if len(D) == 0:
+        return 0.0
+    g, R = len(D) // 2, np.abs(cholesky_factor(D))
+    skew = R[:g].T @ R[g:]
+    _, inversion = congruence(np.eye(len(D), dtype=np.int64), D)
+    return _ERROR * float(np.linalg.norm(skew + skew.T, 2)) + inversion
+
+
+def _inverse(R: Floats) -> Floats:
+    """The inverse of a lower triangular matrix."""
+    inverse: Floats = scipy.linalg.solve_triangular(R, np.eye(len(R)), lower=True)
+    return inverse

@@ -1,0 +1,79 @@
+"""A period matrix in words, for people who see one for the first time."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .periods import PeriodMatrix
+
+_LARGEST_PRINTED = 8
+
+
+def summary(pm: PeriodMatrix, reduced: PeriodMatrix, gamma: NDArray[np.int64]) -> str:
+    """What was computed, the reduced matrix, its transformation, and how far it can be off.
+
+    Parameters
+    ----------
+    pm, reduced : PeriodMatrix
+        In the marking of the mesh, and Siegel reduced.
+    gamma : (2g, 2g) int
+        The transformation between them.
+    """
+    if pm.genus == 0:
+        return (
+            "The surface is a sphere (genus 0): its period matrix is empty, there are no periods."
+        )
+    parts = [
+        f"Period matrix Π of genus {pm.genus}, Siegel reduced:",
+        _indented(_complex_rows(reduced)),
+        "How far it can be off:",
+        _indented(_bound_in_words(reduced)),
+        "Π = (a Π₀ + b)(c Π₀ + d)⁻¹ with Π₀ in the marking of the mesh, [[a, b], [c, d]] =",
+        _indented(_integer_rows(gamma)),
+    ]
+    if pm.complex.mollification:
+        parts.append(
+            f"Degenerate triangles: {pm.complex.mollification:.3g} was added to the length of every "
+            "edge, and the matrix and its bound are those of that surface."
+        )
+    return "\n".join(parts)
+
+
+def _complex_rows(pm: PeriodMatrix) -> list[str]:
+    """Rows with as many digits as are known."""
+    Pi = pm.matrix
+    if len(Pi) > _LARGEST_PRINTED:
+        return [f"{len(Pi)} × {len(Pi)} entries; --json prints all of them"]
+    digits = 6
+    if pm.bound:
+        digits = int(np.clip(np.ceil(-np.log10(pm.bound)) + 1, 3, 15))
+    return ["   ".join(f"{z.real:+.{digits}f} {z.imag:+.{digits}f} i" for z in row) for row in Pi]
+
+
+def _integer_rows(gamma: NDArray[np.int64]) -> list[str]:
+    if len(gamma) > 2 * _LARGEST_PRINTED:
+        return [f"{len(gamma)} × {len(gamma)} integers; --json prints all of them"]
+    width = max(len(str(entry)) for entry in gamma.ravel())
+    return [" ".join(f"{entry:{width}d}" for entry in row) for row in gamma]
+
+
+def _bound_in_words(pm: PeriodMatrix) -> list[str]:
+    bounds = pm.entry_bounds
+    if pm.bound is None or bounds is None:
+        return [
+            "There is no bound: these weights are not the energy of functions on the surface.",
+            "Intrinsic weights (the default) come with one.",
+        ]
+    return [
+        f"Π of this polyhedral surface is known to within {pm.bound:.2g}, relative to its size;",
+        f"no entry is off by more than {bounds.max():.2g}. This is proved, rounding included.",
+        "It is about the surface made of these flat triangles: how well they represent a smooth",
+        "surface is another question, which the bound does not answer.",
+    ]
+
+
+def _indented(lines: list[Any]) -> str:
+    return "\n" + "\n".join(f"    {line}" for line in lines) + "\n"

@@ -1,0 +1,111 @@
+"""Euclidean triangles known by their side lengths: area, cotangents, angles, mollification.
+
+All functions take ``lengths`` of shape (m, 3), the side opposite each corner, and are accurate
+for triangles as thin as their floating-point lengths can describe.  The one thing that matters
+there is to take differences of lengths *before* anything is squared or added, since differences
+of nearby floating-point numbers are exact.
+
+References
+----------
+Kahan, "Miscalculating area and angles of a needle-like triangle" (2014).
+Sharp, Crane, "A Laplacian for nonmanifold triangle meshes" (2020), section 4.5, for intrinsic
+mollification.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import ComplexError
+
+Floats = NDArray[np.float64]
+
+# A slack below this fraction of the longest side is lost in the rounding of the lengths.
+_SMALLEST_SLACK = 5e-15
+# The slack that mollification leaves, and the most it may add, in units of the mean length.
+_MOLLIFIED_SLACK = 1e-13
+_LARGEST_MOLLIFICATION = 1e-6
+
+
+def double_areas(lengths: Floats) -> Floats:
+    """Twice the area of each triangle, by Kahan's formula; 0 where it is degenerate.  (m,)."""
+    a, b, c = _descending(lengths)
+    product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c))
+    return 0.5 * np.sqrt(np.maximum(product, 0.0))
+
+
+def cotangents(lengths: Floats) -> Floats:
+    """Cotangents of the angles, ``[f, s]`` at corner ``s``; shape (m, 3).
+
+    Equal to ``2 * igl.cotmatrix_entries(lengths)`` up to rounding.  Computed as
+    ``(c² + (b − a)(b + a)) / 4A``, where a is the side opposite the angle and b ≥ c are the other
+    two: with the squares taken first, the right angles of a needle drown in rounding, and
+    Delaunay flips must not be decided by rounding.
+    """
+    quadruple_area = 2.0 * double_areas(lengths)
+    cot = np.empty_like(lengths)
+    for s in range(3):
+        a, l1, l2 = lengths[:, s], lengths[:, s - 2], lengths[:, s - 1]
+        b, c = np.maximum(l1, l2), np.minimum(l1, l2)
+        cot[:, s] = (c * c + (b - a) * (b + a)) / quadruple_area
+    return cot
+
+
+def angles(lengths: Floats) -> Floats:
+    """Angles in radians, ``[f, s]`` at corner ``s``; shape (m, 3)."""
+    return np.arctan2(1.0, cotangents(lengths))
+
+
+def slacks(lengths: Floats) -> Floats:
+    """The slack b + c − a ≥ 0 of the triangle inequality, a the longest side; shape (m,)."""
+    a, b, c = _descending(lengths)
+    return c - (a - b)
+
+
+def is_strict(lengths: Floats) -> NDArray[np.bool_]:
+    """Whether the triangle inequality holds with more slack than rounding can hide; shape (m,)."""
+    return slacks(lengths) > _SMALLEST_SLACK * lengths.max(axis=1)
+
+
+def mollify(lengths: Floats) -> tuple[Floats, float]:
+    """Add one small length to all sides, so that every triangle inequality is strict.
+
+    Nothing is added where every slack exceeds 5e-15 of the longest side of its triangle.
+    Otherwise the result has slacks of at least 1e-13 of the mean length.
+
+    Returns
+    -------
+    lengths : (m, 3) float
+    delta : float
+        The length that was added.
+
+    Raises
+    ------
+    ComplexError
+        If more than 1e-6 of the mean length would be needed.
+    """
+    if is_strict(lengths).all():
+        return lengths, 0.0
+    slack = slacks(lengths)
+    mean = float(lengths.mean())
+    worst = int(np.argmin(slack))
+    delta = _MOLLIFIED_SLACK * mean - float(slack[worst])
+    if not 0.0 < delta <= _LARGEST_MOLLIFICATION * mean:
+        raise ComplexError(
+            f"face {worst} is degenerate: its sides {_in_words(lengths[worst])} miss the strict "
+            f"triangle inequality by {max(-slack[worst], 0.0):.3g}, where the mean length is "
+            f"{mean:.3g}, and at most {_LARGEST_MOLLIFICATION:g} of that is mended by "
+            "mollification. Are these the lengths of one surface, the coordinates not all equal?"
+        )
+    return lengths + delta, delta
+
+
+def _in_words(sides: Floats) -> str:
+    return ", ".join(f"{side:.6g}" for side in sides)
+
+
+def _descending(lengths: Floats) -> tuple[Floats, Floats, Floats]:
+    l0, l1, l2 = lengths.T
+    high, low = np.maximum(l0, l1), np.minimum(l0, l1)
+    return np.maximum(high, l2), np.maximum(low, np.minimum(high, l2)), np.minimum(low, l2)

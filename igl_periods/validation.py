@@ -1,0 +1,101 @@
+"""Checks of the arrays that users hand over.
+
+Each returns its argument as a contiguous array of float64 or int64, or raises an error that says
+what is wrong with it, where first, and what to do.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .errors import ComplexError, MeshError
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+_GLUED_TOLERANCE = 1e-9
+
+
+def checked_positions(V: ArrayLike) -> Floats:
+    """Vertex positions (n, d), finite, d ≥ 2, or MeshError."""
+    array = np.asarray(V)
+    if array.ndim != 2 or array.shape[1] < 2:
+        raise MeshError(f"V must have shape (n, d) with d >= 2, not {array.shape}.")
+    if array.dtype.kind not in "iuf":
+        raise MeshError(f"V must hold real numbers, not {array.dtype}.")
+    positions = np.ascontiguousarray(array, dtype=np.float64)
+    finite = np.isfinite(positions).all(axis=1)
+    if not finite.all():
+        raise MeshError(
+            f"{np.count_nonzero(~finite)} vertices have coordinates that are NaN or infinite; the "
+            f"first is vertex {np.argmin(finite)}."
+        )
+    return positions
+
+
+def checked_faces(F: ArrayLike, n_vertices: int | None) -> Ints:
+    """Faces (m, 3), m ≥ 1, of three different vertices each, in range, or MeshError."""
+    array = np.asarray(F)
+    if array.size == 0:
+        raise MeshError("the mesh is empty: it has no faces.")
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise MeshError(
+            f"F must have shape (m, 3), not {array.shape}. Polygons must be triangulated first."
+        )
+    if array.dtype.kind not in "iu":
+        raise MeshError(f"F must be integer (rows of V), not {array.dtype}.")
+    faces = np.ascontiguousarray(array, dtype=np.int64)
+    low, high = int(faces.min()), int(faces.max())
+    if low < 0:
+        raise MeshError(
+            f"F has negative indices (the least is {low}); vertices are counted from 0."
+        )
+    if n_vertices is not None and high >= n_vertices:
+        raise MeshError(
+            f"F refers to vertex {high}, out of range: V has {n_vertices} rows, counted from 0. "
+            "Are the faces counted from 1?"
+        )
+    repeated = (faces == np.roll(faces, 1, 1)).any(axis=1)
+    if repeated.any():
+        f = int(np.argmax(repeated))
+        raise MeshError(
+            f"{np.count_nonzero(repeated)} faces repeat a vertex; the first is face {f}, "
+            f"{faces[f].tolist()}. Remove such collapsed faces."
+        )
+    return faces
+
+
+def checked_lengths(lengths: ArrayLike, n_faces: int) -> Floats:
+    """Side lengths (n_faces, 3), positive and finite, or ComplexError."""
+    array = np.asarray(lengths)
+    if array.shape != (n_faces, 3):
+        raise ComplexError(
+            f"lengths must have shape ({n_faces}, 3), one row a face, not {array.shape}."
+        )
+    if array.dtype.kind not in "iuf":
+        raise ComplexError(f"lengths must hold real numbers, not {array.dtype}.")
+    checked = array.astype(np.float64)
+    wrong = ~(np.isfinite(checked) & (checked > 0.0)).all(axis=1)
+    if wrong.any():
+        f = int(np.argmax(wrong))
+        raise ComplexError(
+            f"{np.count_nonzero(wrong)} faces have a side length that is not positive and finite; "
+            f"the first is face {f}, {checked[f].tolist()}."
+        )
+    return checked
+
+
+def check_equal_when_glued(values: Floats, twin: Ints, name: str) -> None:
+    """Raise ComplexError unless values agree on glued sides, to 1e-9 relative; both (m, 3)."""
+    other = np.where(twin >= 0, values.ravel()[twin], values)
+    scale = np.maximum(np.abs(values), np.abs(other))
+    excess = np.abs(values - other) - _GLUED_TOLERANCE * scale
+    if excess.max() > 0.0:
+        f, s = np.unravel_index(np.argmax(excess), excess.shape)
+        raise ComplexError(
+            f"glued sides have different {name}: {values[f, s]:.12g} at side {s} of face {f}, "
+            f"{other[f, s]:.12g} at the side glued to it; they may differ by "
+            f"{_GLUED_TOLERANCE:g} (relative). Is the order of sides right (side s lies opposite "
+            "corner s)?"
+        )

@@ -1,0 +1,105 @@
+"""Thousands of awkward surfaces: a valid result or a documented error, never anything else."""
+
+import re
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from random_surfaces import noisy_torus, random_gluing, random_lengths
+
+import igl_periods as ip
+from igl_periods.homology import pairing
+from igl_periods.symplectic import standard_form
+
+many = settings(max_examples=600, deadline=None, suppress_health_check=list(HealthCheck))
+seeds = st.integers(0, 2**32 - 1)
+
+
+def check_result(pm):
+    """Bilinear relations, bracket, unimodular pairing."""
+    g, Pi = pm.genus, pm.matrix
+    J = standard_form(g)
+    assert np.array_equal(pairing(pm.complex, pm.cocycles, pm.cocycles), J)
+    assert np.all(np.isfinite(Pi))
+    assert np.array_equal(Pi, Pi.T)
+    assert np.isfinite(pm.bound)
+    if g == 0:
+        return
+    assert np.linalg.eigvalsh(Pi.imag)[0] > 0
+    # d ≥ 1 is the bracket J D⁻¹ Jᵀ ≤ D, up to what the bound allows for rounding.
+    assert pm.symplectic_eigenvalues[-1] >= 1 - pm.rounding_allowance
+    reduced = pm.reduced()
+    assert np.all(np.abs(reduced.matrix.real) <= 0.5 + 1e-9)
+    # The bound does not depend on the marking, up to the rounding that it allows for.
+    assert (
+        abs(reduced.symplectic_eigenvalues[0] / pm.symplectic_eigenvalues[0] - 1)
+        <= 2 * pm.rounding_allowance + 2 * reduced.rounding_allowance
+    )
+
+
+def check_result_or_refusal(*surface):
+    try:
+        pm = ip.period_matrix(*surface)
+        pm.reduced()
+    except ip.ComplexError as error:
+        refusal = str(error)
+    else:
+        check_result(pm)
+        return
+    assert re.search("is degenerate|too extreme for double precision", refusal)
+
+
+@many
+@given(n_faces=st.integers(1, 12), seed=seeds)
+def test_random_gluings(n_faces, seed):
+    # Multi-edges, loops, one-vertex surfaces, faces glued to themselves.
+    rng = np.random.default_rng(seed)
+    twin = random_gluing(2 * n_faces, rng)
+    for K in ip.DeltaComplex.from_gluing(random_lengths(twin, rng), twin).components():
+        check_result(ip.period_matrix(K))
+
+
+@many
+@given(n_faces=st.integers(1, 8), exponent=st.floats(1, 14), seed=seeds)
+def test_random_gluings_of_needles(n_faces, exponent, seed):
+    # One side of every face free to be tiny: the sides of equal length are glued to each other.
+    rng = np.random.default_rng(seed)
+    order = 3 * np.arange(2 * n_faces)
+    twin = np.empty(6 * n_faces, dtype=np.int64)
+    short = rng.permutation(order)
+    twin[short[0::2]], twin[short[1::2]] = short[1::2], short[0::2]
+    long = rng.permutation(np.concatenate([order + 1, order + 2]))
+    twin[long[0::2]], twin[long[1::2]] = long[1::2], long[0::2]
+    lengths = np.ones(6 * n_faces)
+    lengths[short] = np.repeat(10.0 ** -rng.uniform(0, exponent, n_faces), 2)
+    K = ip.DeltaComplex.from_gluing(lengths.reshape(-1, 3), twin.reshape(-1, 3))
+    for part in K.components():
+        check_result_or_refusal(part)
+
+
+@many
+@given(n=st.integers(3, 7), m=st.integers(3, 6), noise=st.floats(0, 3), seed=seeds)
+def test_coarse_noisy_tori(n, m, noise, seed):
+    V, F = noisy_torus(n, m, noise, seed)
+    pm = ip.period_matrix(V, F)
+    assert pm.genus == 1
+    check_result(pm)
+
+
+@many
+@given(n=st.integers(3, 6), seed=seeds, digits=st.integers(0, 3))
+def test_tori_on_a_coarse_lattice(n, seed, digits):
+    # Rounded coordinates: coinciding vertices, collinear faces, exact ties of Delaunay edges.
+    V, F = noisy_torus(n, 4, 0.5, seed)
+    check_result_or_refusal(np.round(V, digits), F)
+
+
+@pytest.mark.slow
+@settings(max_examples=10_000, deadline=None, suppress_health_check=list(HealthCheck))
+@given(n_faces=st.integers(1, 40), seed=seeds)
+def test_ten_thousand_gluings(n_faces, seed):
+    rng = np.random.default_rng(seed)
+    twin = random_gluing(2 * n_faces, rng)
+    for K in ip.DeltaComplex.from_gluing(random_lengths(twin, rng), twin).components():
+        check_result(ip.period_matrix(K))
