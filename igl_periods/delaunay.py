@@ -87,10 +87,11 @@ def intrinsic_delaunay(K: DeltaComplex, cochains: csr_array) -> tuple[DeltaCompl
 
 def delaunay_flips(K: DeltaComplex) -> tuple[DeltaComplex, list[Flips]]:
     """The intrinsic Delaunay complex, and the rounds of flips that lead to it."""
-    mesh = _FlippableMesh.of(K)
-    suspects = mesh.bad_edges(np.arange(K.n_edges))
+    cot = cotangents(K.lengths)
+    suspects = np.unique(K.edge.ravel()[_is_bad(cot.ravel(), cot.ravel()[K.twin.ravel()])])
     if suspects.size == 0:
         return K, []
+    mesh = _FlippableMesh.of(K, cot)
     order = np.random.default_rng(0)
     rounds: list[Flips] = []
     while suspects.size:
@@ -146,7 +147,7 @@ class _FlippableMesh:
     owner: Ints  # scratch: which edge claims a face
 
     @classmethod
-    def of(cls, K: DeltaComplex) -> _FlippableMesh:
+    def of(cls, K: DeltaComplex, cot: Floats) -> _FlippableMesh:
         half_edge = np.empty(K.n_edges, dtype=np.int64)
         forward = np.flatnonzero(K.sign.ravel() > 0)
         half_edge[K.edge.ravel()[forward]] = forward
@@ -156,21 +157,16 @@ class _FlippableMesh:
             edge=K.edge.flatten(),
             sign=K.sign.flatten(),
             corner_vertex=K.corner_vertex.flatten(),
-            cotangents=cotangents(K.lengths).ravel(),
+            cotangents=cot.ravel(),
             half_edge=half_edge,
             slot=np.arange(K.twin.size),
             owner=np.empty(K.n_faces, dtype=np.int64),
         )
 
     def bad_edges(self, edges: Ints) -> Ints:
-        """Those of the edges that are not Delaunay, beyond rounding.
-
-        An edge with the same face on both sides never is: the two angles are of one triangle.
-        """
+        """Those of the edges that are not Delaunay."""
         h = self.half_edge[edges]
-        cot_here, cot_there = self.cotangents[h], self.cotangents[self.twin[h]]
-        allowance = _TOLERANCE + _ULPS * (np.abs(cot_here) + np.abs(cot_there))
-        return edges[cot_here + cot_there < -allowance]
+        return edges[_is_bad(self.cotangents[h], self.cotangents[self.twin[h]])]
 
     def independent(self, edges: Ints) -> tuple[Ints, Ints]:
         """Split edges into some that share no face, and the rest."""
@@ -263,6 +259,17 @@ class _FlippableMesh:
         self.sign[h], self.sign[t] = 1, -1
         self.twin[h], self.twin[t] = t, h
         self.half_edge[edges] = h
+
+
+def _is_bad(cot_here: Floats, cot_there: Floats) -> NDArray[np.bool_]:
+    """Whether an edge with these opposite angles is not Delaunay, beyond rounding.
+
+    An edge with the same face on both sides never is: its two angles are of one triangle.
+    """
+    total = cot_here + cot_there
+    bad = total < -_TOLERANCE
+    bad[bad] = total[bad] < -_TOLERANCE - _ULPS * (np.abs(cot_here[bad]) + np.abs(cot_there[bad]))
+    return bad
 
 
 def _foot(base: Floats, near: Floats, far: Floats) -> Floats:

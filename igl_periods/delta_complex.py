@@ -39,7 +39,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .errors import ComplexError, MeshError
-from .gluing import checked_twin, components_of, corner_vertices, squares, twins_of_faces
+from .gluing import (
+    checked_twin,
+    components_of,
+    corner_vertices,
+    fans_are_whole,
+    squares,
+    twins_of_faces,
+)
 from .triangles import angles, cotangents, mollify
 from .validation import (
     check_equal_when_glued,
@@ -406,13 +413,19 @@ def _face_components(K: DeltaComplex) -> tuple[int, NDArray[np.int32]]:
 
 def _glued_lengths(lengths: Floats, twin: Ints) -> Floats:
     """Lengths made equal on glued sides, where they may differ by rounding."""
+    other = lengths.ravel()[twin]
+    if twin.min() < 0:
+        other = np.where(twin >= 0, other, lengths)
+    if np.array_equal(other, lengths):
+        return lengths
     check_equal_when_glued(lengths, twin, "lengths")
-    other = np.where(twin >= 0, lengths.ravel()[twin], lengths)
-    return lengths if np.array_equal(other, lengths) else 0.5 * (lengths + other)
+    return 0.5 * (lengths + other)
 
 
 def _check_fans(twin: Ints, same: NDArray[np.bool_], corner_vertex: Ints, labels: Ints) -> None:
     """Raise if the faces at some vertex form more than one fan."""
+    if twin.min() >= 0 and not same.any() and fans_are_whole(twin, corner_vertex, labels.size):
+        return
     fan, n_fans = corner_vertices(twin, same)
     if n_fans == labels.size:
         return

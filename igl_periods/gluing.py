@@ -118,6 +118,24 @@ def corner_vertices(twin: Ints, same: Bools) -> tuple[Ints, int]:
     return rank[label].reshape(-1, 3), n
 
 
+def fans_are_whole(twin: Ints, corner_vertex: Ints, n_vertices: int) -> bool:
+    """Whether walking once around each vertex meets all of its corners; closed and oriented only.
+
+    Much faster than :func:`corner_vertices`, where the vertices are known already.
+    """
+    flat, corners = twin.ravel(), corner_vertex.ravel()
+    first = np.empty(n_vertices, dtype=np.int64)
+    first[corners] = np.arange(flat.size)
+    missing = np.bincount(corners, minlength=n_vertices)
+    vertex, corner = np.arange(n_vertices), first
+    while vertex.size:
+        missing[vertex] -= 1
+        corner = next_corner(flat[next_corner(corner, 2)], 2)
+        going = corner != first[vertex]
+        vertex, corner = vertex[going], corner[going]
+    return not missing.any()
+
+
 def next_corner(half_edge: Ints, steps: int = 1) -> Ints:
     """The half-edge (or corner) ``steps`` further round in the same face."""
     return half_edge - half_edge % 3 + (half_edge + steps) % 3
