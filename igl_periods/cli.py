@@ -70,7 +70,12 @@ def _compute(options: argparse.Namespace) -> int:
     with stage("Siegel reduction"):
         reduced, gamma = siegel_reduced(pm)
     if options.json:
-        document = {"mesh": report.as_dict(), **result_to_json(pm, reduced, gamma)}
+        chosen = {"weights": options.weights, "delaunay": options.delaunay}
+        document = {
+            **result_to_json(pm, reduced, gamma),
+            "options": chosen,
+            "mesh": report.as_dict(),
+        }
         print(json.dumps(document, indent=1))
     else:
         print(f"{report}\n")
@@ -98,3 +103,7 @@ class _StageFormatter(logging.Formatter):
         if name is None:
             return f"{record.getMessage()}\n"
         return f"\r  {name} …" if seconds is None else f"\r  {name:<20} {seconds:8.2f} s\n"
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -6,6 +6,7 @@ which grows when a reader of the old form would misread the new one.
 
 from __future__ import annotations
 
+from importlib.metadata import version
 from typing import Any
 
 import numpy as np
@@ -59,6 +60,7 @@ def result_to_json(pm: PeriodMatrix, reduced: PeriodMatrix, gamma: NDArray[Any])
     K = pm.complex
     return {
         "schema": SCHEMA,
+        "version": version("igl_periods"),
         "surface": {
             "vertices": K.n_vertices,
             "edges": K.n_edges,

@@ -1,0 +1,134 @@
+"""The command line: what it prints, its JSON, its exit codes."""
+
+import json
+import os
+import pty
+import subprocess
+import sys
+
+import igl
+import numpy as np
+import pytest
+from matching import mobius
+from random_surfaces import noisy_torus, torus_of_revolution
+
+import igl_periods as ip
+from igl_periods.cli import main
+
+
+@pytest.fixture
+def torus(tmp_path):
+    path = tmp_path / "torus.off"
+    igl.write_triangle_mesh(str(path), *torus_of_revolution(2.0, 0.8, 20, 12))
+    return path
+
+
+def test_summary_in_words(torus, capsys):
+    assert main(["compute", str(torus)]) == 0
+    printed = capsys.readouterr().out
+    assert "240 vertices" in printed
+    assert "genus 1" in printed
+    assert "Π of this polyhedral surface is known to within" in printed
+    assert "polyhedral" in printed
+
+
+def test_json_is_complete_and_consistent(torus, capsys):
+    assert main(["compute", str(torus), "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert document["schema"] == 1
+    pm = ip.period_matrix(*ip.load_mesh(torus)[:2])
+    mesh, reduced = document["mesh_marking"], document["reduced_marking"]
+    matrix = np.array(mesh["matrix"]["real"]) + 1j * np.array(mesh["matrix"]["imag"])
+    assert np.array_equal(matrix, pm.matrix)
+    assert mesh["bound"] == pm.bound
+    assert mesh["certified"] is True
+    for name in ("primal", "dual", "mean", "dirichlet", "entry_bounds", "symplectic_eigenvalues"):
+        values = mesh[name]
+        if isinstance(values, dict):
+            values = np.array(values["real"]) + 1j * np.array(values["imag"])
+        assert np.array_equal(values, getattr(pm, name))
+    other = np.array(reduced["matrix"]["real"]) + 1j * np.array(reduced["matrix"]["imag"])
+    np.testing.assert_allclose(mobius(np.array(reduced["gamma"]), matrix), other, rtol=1e-12)
+    assert document["surface"] == {
+        "vertices": 240, "edges": 720, "faces": 480, "genus": 1, "mollification": 0.0
+    }  # fmt: skip
+    assert document["mesh"]["loaded"]["triangles"] == 480
+    assert document["options"] == {"weights": "intrinsic", "delaunay": True}
+    assert document["version"] == ip.__version__
+
+
+def test_cycles_in_json_are_closed_walks_on_the_mesh(torus, capsys):
+    main(["compute", str(torus), "--json"])
+    cycles = json.loads(capsys.readouterr().out)["mesh_marking"]["cycles"]
+    _, F = igl.read_triangle_mesh(torus)
+    edges = {
+        tuple(edge) for edge in np.sort(F[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)).tolist()
+    }
+    for walk in (cycles["a"][0], cycles["b"][0]):
+        steps = zip(walk, walk[1:] + walk[:1])
+        assert all(tuple(sorted(step)) in edges for step in steps)
+
+
+def test_extrinsic_weights_come_without_a_bound(torus, capsys):
+    assert main(["compute", str(torus), "--weights", "extrinsic", "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert document["mesh_marking"]["bound"] is None
+    assert main(["compute", str(torus), "--weights", "extrinsic"]) == 0
+    assert "There is no bound" in capsys.readouterr().out
+
+
+def test_without_flips_the_bound_is_larger(tmp_path, capsys):
+    path = tmp_path / "noisy.obj"
+    igl.write_triangle_mesh(str(path), *noisy_torus(9, 6, 0.2, 0))
+    bounds = []
+    for options in ([], ["--no-delaunay"]):
+        assert main(["compute", str(path), "--json", *options]) == 0
+        bounds.append(json.loads(capsys.readouterr().out)["mesh_marking"]["bound"])
+    assert bounds[0] < bounds[1]
+
+
+def test_a_sphere_is_no_error(tmp_path, capsys):
+    path = tmp_path / "sphere.off"
+    V = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    igl.write_triangle_mesh(str(path), V, np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]))
+    assert main(["compute", str(path)]) == 0
+    assert "genus 0" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (None, "no mesh file"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "not closed: it has 3 boundary edges"),
+        ("nonsense", "bad.off"),
+    ],
+)
+def test_refused_meshes_exit_with_one(tmp_path, capsys, content, message):
+    path = tmp_path / "bad.off"
+    if content is not None:
+        path.write_text(content)
+    assert main(["compute", str(path)]) == 1
+    error = capsys.readouterr().err
+    assert message in error
+    assert error.startswith("igl-periods: ")
+
+
+@pytest.mark.parametrize("arguments", [[], ["compute"], ["compute", "x.off", "--weights", "other"]])
+def test_wrong_usage_exits_with_two(arguments, capsys):
+    with pytest.raises(SystemExit) as exit_:
+        main(arguments)
+    assert exit_.value.code == 2
+    assert "usage" in capsys.readouterr().err
+
+
+def test_stages_are_shown_on_a_terminal_only(torus):
+    command = [sys.executable, "-m", "igl_periods.cli", "compute", str(torus)]
+    piped = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert piped.stderr == ""
+    reader, terminal = pty.openpty()
+    subprocess.run(command, stdout=subprocess.DEVNULL, stderr=terminal, check=True)
+    os.close(terminal)
+    shown = os.read(reader, 10_000).decode()
+    os.close(reader)
+    for stage in ("reading the mesh", "homology", "harmonic forms", "Siegel reduction"):
+        assert stage in shown

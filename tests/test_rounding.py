@@ -1,0 +1,104 @@
+"""The allowance for rounding: it covers the true errors, found in ball arithmetic."""
+
+import ball_arithmetic
+import flint
+import numpy as np
+import pytest
+from random_surfaces import L_SHAPE, noisy_torus, random_gluing, random_lengths
+
+import igl_periods as ip
+from igl_periods.delaunay import delaunay_flips
+from igl_periods.rounding import congruence, length_sensitivity
+
+
+def needle_gluing(n_faces, size, rng):
+    """Isosceles needles: their short sides are glued to each other, and their long sides."""
+    short = rng.permutation(3 * np.arange(n_faces))
+    long = rng.permutation(np.setdiff1d(np.arange(3 * n_faces), short))
+    twin = np.empty(3 * n_faces, dtype=np.int64)
+    for sides in (short, long):
+        twin[sides[0::2]], twin[sides[1::2]] = sides[1::2], sides[0::2]
+    lengths = np.ones(3 * n_faces)
+    lengths[short] = size * np.repeat(rng.uniform(0.5, 1.0, n_faces // 2), 2)
+    return ip.DeltaComplex.from_gluing(lengths.reshape(-1, 3), twin.reshape(-1, 3))
+
+
+def flattened_torus(height, seed):
+    """Many vertices nearly on the edges opposite to them: caps."""
+    rng = np.random.default_rng(seed)
+    V, F = noisy_torus(5, 4, 0.1, seed)
+    for f in rng.choice(len(F), 4, replace=False):
+        a, b, c = F[f]
+        V[a] = 0.5 * (V[b] + V[c]) + height * rng.normal(size=3)
+    return ip.DeltaComplex.from_mesh(V, F)
+
+
+def surfaces():
+    rng = np.random.default_rng(5)
+    yield "L", ip.DeltaComplex.from_squares(L_SHAPE, 2)
+    for seed in range(3):
+        yield f"noisy torus {seed}", ip.DeltaComplex.from_mesh(*noisy_torus(6, 5, 0.3, seed))
+    for size in (1e-1, 1e-3, 1e-5):
+        yield f"needles {size}", needle_gluing(6, size, rng)
+    for height in (1e-2, 1e-4, 1e-6):
+        yield f"caps {height}", flattened_torus(height, 3)
+    twin = random_gluing(12, rng)
+    yield "gluing", ip.DeltaComplex.from_gluing(random_lengths(twin, rng), twin)
+
+
+CASES = [(name, part) for name, K in surfaces() for part in K.components()]
+
+
+@pytest.mark.parametrize(("name", "K"), CASES, ids=[name for name, _ in CASES])
+def test_allowance_covers_the_error_of_D(name, K):
+    # Relative to D: |ξᵀ(D_computed − D)ξ| ≤ r ξᵀDξ, with D in ball arithmetic.
+    try:
+        pm = ip.period_matrix(K)
+    except ip.ComplexError:
+        pytest.skip("too extreme for double precision")
+    if pm.genus == 0:
+        pytest.skip("a sphere")
+    _, rounds = delaunay_flips(K)
+    exact = ball_arithmetic.dirichlet_matrix(K, pm.cocycles, rounds)
+    computed = flint.arb_mat([[flint.arb(x) for x in row] for row in pm.dirichlet.tolist()])
+    n = 2 * pm.genus
+    difference = np.array([float(x.mid()) for x in (computed - exact).entries()]).reshape(n, n)
+    whiten = np.linalg.inv(np.linalg.cholesky(pm.dirichlet))
+    error = np.linalg.norm(whiten @ difference @ whiten.T, 2)
+    assert error <= pm.rounding
+    assert pm.rounding < 1e-3
+
+
+def test_sensitivity_of_simple_triangles():
+    c = 1e-3
+    cap = np.array([[1.0, 0.5 * np.sqrt(1 + 4 * c * c), 0.5 * np.sqrt(1 + 4 * c * c)]])
+    assert length_sensitivity(np.ones((1, 3)))[0] == pytest.approx(8.0)
+    assert length_sensitivity(np.array([[c, 1.0, 1.0]]))[0] == pytest.approx(4 / c, rel=1e-2)
+    assert length_sensitivity(cap)[0] == pytest.approx(1 / c**2, rel=1e-2)
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_sensitivity_bounds_the_change_of_metric(seed):
+    # The generalised eigenvalues of the two metrics on the plane of the triangle.
+    rng = np.random.default_rng(seed)
+    lengths = np.array([1.0, *(0.5 + rng.uniform(1e-3, 0.4, 2))])
+
+    def metric(sides):
+        a, b, c = sides**2
+        return np.array([[c, (b + c - a) / 2], [(b + c - a) / 2, b]])
+
+    g, sensitivity, epsilon = metric(lengths), length_sensitivity(lengths[None])[0], 1e-9
+    for signs in rng.choice([-1.0, 1.0], (8, 3)):
+        changed = metric(lengths * (1 + epsilon * signs))
+        change = np.abs(np.linalg.eigvals(np.linalg.solve(g, changed)) - 1).max()
+        assert change <= sensitivity * epsilon * 1.01 + 1e-14 * sensitivity
+
+
+def test_congruence_reports_lost_digits():
+    # Two nearly parallel forms: their difference loses what they have in common.
+    D = np.array([[1.0, 1.0 - 1e-8], [1.0 - 1e-8, 1.0]])
+    changed, loss = congruence(np.array([[1, -1], [0, 1]]), D)
+    assert changed[0, 0] == pytest.approx(2e-8, rel=1e-6)
+    assert 1e-9 < loss < 1e-6
+    _, kept = congruence(np.eye(2, dtype=int), np.eye(2))
+    assert kept < 1e-14
