@@ -33,7 +33,7 @@ Ints = NDArray[np.int64]
 # Bits kept of the smallest eigenvalue when a form is rounded to integers.
 _BITS = 40
 # Partial vectors handled at one level before an enumeration counts as too large.
-ENUMERATION_LIMIT = 2_000_000
+ENUMERATION_LIMIT = 500_000
 
 
 class EnumerationLimitError(RuntimeError):
@@ -146,3 +146,10 @@ def unimodular_inverse(U: Ints) -> Ints:
     inverse = matrix.inv(True)
     identity = flint.fmpz_mat(np.eye(len(U), dtype=np.int64).tolist()) if len(U) else matrix
     return int_array(inverse if inverse * matrix == identity else -inverse)
+
+
+def product(A: Ints, B: Ints) -> Ints:
+    """The exact product of integer matrices; OverflowError where it does not fit into 64 bits."""
+    if not A.size or not B.size:
+        return A @ B
+    return int_array(flint.fmpz_mat(A.tolist()) * flint.fmpz_mat(B.tolist()))

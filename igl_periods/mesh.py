@@ -17,7 +17,8 @@ from numpy.typing import ArrayLike, NDArray
 from .mesh_facts import face_components, glued_in_pairs, mesh_facts
 from .mesh_file import compressed, read_mesh_file
 from .mesh_repair import repair_mesh
-from .mesh_report import MeshReport, RepairStep
+from .mesh_report import MeshReport as MeshReport
+from .mesh_report import RepairStep
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

@@ -99,7 +99,7 @@ class MeshFacts:
     components: tuple[MeshComponent, ...]
 
     @property
-    def closed_surface(self) -> bool:
+    def is_closed_surface(self) -> bool:
         """Whether the mesh is one closed, consistently oriented surface."""
         return not self.defects()
 
@@ -136,7 +136,7 @@ def mesh_facts(V: Floats, F: Ints) -> MeshFacts:
     Examples
     --------
     >>> V = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
-    >>> mesh_facts(V, np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])).closed_surface
+    >>> mesh_facts(V, np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])).is_closed_surface
     True
     """
     twin, same, faces_at = glued_in_pairs(F)
@@ -149,10 +149,10 @@ def mesh_facts(V: Floats, F: Ints) -> MeshFacts:
         vertices=len(V),
         triangles=len(F),
         unreferenced_vertices=len(V) - used.size,
-        coincident_vertices=_repeats(V),
+        coincident_vertices=int(np.count_nonzero(repeats(V))),
         collapsed_triangles=int(np.count_nonzero(collapsed(F))),
         zero_area_triangles=int(np.count_nonzero(igl.doublearea(V, F) == 0.0)),
-        duplicate_triangles=_repeats(np.sort(F, axis=1)),
+        duplicate_triangles=int(np.count_nonzero(repeats(np.sort(F, axis=1)))),
         boundary_edges=int(np.count_nonzero(faces_at == 1)),
         nonmanifold_edges=np.unique(key[faces_at.ravel() > 2]).size,
         nonmanifold_vertices=int(np.count_nonzero(np.bincount(fan_vertex) > 1)),
@@ -161,8 +161,9 @@ def mesh_facts(V: Floats, F: Ints) -> MeshFacts:
     )
 
 
-def _repeats(rows: NDArray[Any]) -> int:
-    return int(np.count_nonzero(first_equal_row(rows) != np.arange(len(rows))))
+def repeats(rows: NDArray[Any]) -> Bools:
+    """Mask of the rows that equal an earlier one."""
+    return first_equal_row(rows) != np.arange(len(rows))
 
 
 def collapsed(F: Ints) -> Bools:

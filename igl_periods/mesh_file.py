@@ -256,6 +256,8 @@ def _read_stl(file: Path) -> MeshFile:
         announced = n_binary
     elif data.lstrip().startswith(b"solid") and b"endsolid" in data:
         announced = len(re.findall(rb"^\s*endfacet", data, re.MULTILINE))
+        if len(re.findall(rb"^\s*vertex\s", data, re.MULTILINE)) != 3 * announced:
+            raise MeshError("not every facet has three vertices: the file is corrupt.")
     else:
         raise MeshError(
             "this is neither text from 'solid' to 'endsolid' nor the number of bytes that a binary "

@@ -2,10 +2,11 @@
 
 The steps, in this order, each a function from a mesh to a mesh:
 
-* weld vertices *of the boundary* that lie at exactly the same position.  This closes the seams of
-  files that repeat vertices, and touches no surface that is closed already: sheets of an immersed
-  surface may meet in a vertex and stay apart;
-* drop triangles that use a vertex twice, and all but one of those with the same three vertices;
+* drop triangles that repeat another one;
+* stitch boundary edges that lie in pairs at exactly the same place, by welding their ends.  This
+  closes the seams of files that repeat vertices, and touches no surface that is closed already:
+  sheets of an immersed surface may meet in a vertex and stay apart;
+* drop triangles that use a vertex twice, and those that repeat another one now;
 * turn triangles over until they agree, in every component that is orientable;
 * split non-manifold edges, pairing the triangles that run through the edge in opposite directions
   (Guéziec et al.), and give each fan of triangles at a vertex a vertex of its own;
@@ -25,12 +26,10 @@ from __future__ import annotations
 import igl
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from .errors import MeshError
-from .gluing import corner_vertices, next_corner
-from .mesh_facts import collapsed, glued_in_pairs, orientable_faces
+from .gluing import components_of, corner_vertices, next_corner
+from .mesh_facts import collapsed, glued_in_pairs, orientable_faces, repeats
 from .mesh_file import compressed, first_equal_row
 from .mesh_report import RepairStep
 from .validation import checked_positions
@@ -65,12 +64,13 @@ def repair_mesh(
     """
     V, F = checked_positions(V), np.asarray(F, dtype=np.int64)
     steps = []
-    F, welded = _weld_boundary(V, F)
-    steps.append(RepairStep("boundary vertices welded to a coincident one", welded))
+    F, repeated = _drop(F, _repeated(V, F))
+    F, welded = _stitch(V, F)
     F, dropped = _drop(F, collapsed(F))
+    steps.append(RepairStep("vertices welded by stitching boundary edges", welded))
     steps.append(RepairStep("triangles dropped that used a vertex twice", dropped))
-    F, dropped = _drop(F, _repeated(F))
-    steps.append(RepairStep("duplicate triangles dropped", dropped))
+    F, dropped = _drop(F, _repeated(V, F))
+    steps.append(RepairStep("duplicate triangles dropped", repeated + dropped))
     if len(F) == 0:
         raise MeshError("no triangle is left after repair: all of them are collapsed.")
     F, turned = _orient(F)
@@ -86,27 +86,52 @@ def repair_mesh(
     return used, faces, tuple(steps)
 
 
-def _weld_boundary(V: Floats, F: Ints) -> tuple[Ints, int]:
-    _, _, faces_at = glued_in_pairs(F)
-    free = np.flatnonzero(faces_at.ravel() == 1)
-    on_boundary = np.unique(F.ravel()[np.concatenate([next_corner(free), next_corner(free, 2)])])
-    new = np.arange(len(V))
-    new[on_boundary] = on_boundary[first_equal_row(V[on_boundary])]
-    return new[F], int(np.count_nonzero(new != np.arange(len(V))))
+def _stitch(V: Floats, F: Ints) -> tuple[Ints, int]:
+    """Weld the ends of boundary edges of which exactly two lie at the same place."""
+    twin, _, _ = glued_in_pairs(F)
+    free = np.flatnonzero(twin.ravel() < 0)
+    start, end = F.ravel()[next_corner(free)], F.ravel()[next_corner(free, 2)]
+    place = first_equal_row(V)
+    ends = np.sort(np.column_stack([place[start], place[end]]), axis=1)
+    _, edge, count = np.unique(first_equal_row(ends), return_inverse=True, return_counts=True)
+    paired = np.flatnonzero((count == 2)[edge] & (ends[:, 0] != ends[:, 1]))
+    one, other = paired[np.argsort(edge[paired], kind="stable")].reshape(-1, 2).T
+    same_way = place[start[one]] == place[start[other]]
+    _, welded = components_of(
+        np.concatenate([start[one], end[one]]),
+        np.concatenate(
+            [
+                np.where(same_way, start[other], end[other]),
+                np.where(same_way, end[other], start[other]),
+            ]
+        ),
+        len(V),
+    )
+    _, first, inverse = np.unique(welded, return_index=True, return_inverse=True)
+    return first[inverse][F], len(V) - first.size
 
 
 def _drop(F: Ints, wrong: NDArray[np.bool_]) -> tuple[Ints, int]:
     return F[~wrong], int(np.count_nonzero(wrong))
 
 
-def _repeated(F: Ints) -> NDArray[np.bool_]:
-    """Mask of the triangles that repeat the three vertices of an earlier one."""
+def _repeated(V: Floats, F: Ints) -> NDArray[np.bool_]:
+    """Mask of the triangles that repeat an earlier one.
+
+    That is, one with the same vertices and the same orientation, or with the same vertices where
+    edges are crowded, or at the same place and without neighbours.  Two triangles that are glued
+    along all three sides are no such thing, but a sphere.
+    """
     if len(F) == 0:
         return np.zeros(0, dtype=bool)
-    repeated = first_equal_row(np.sort(F, axis=1)) != np.arange(len(F))
-    # Two triangles with the same boundary and nothing else at it are a closed surface, a sphere.
     _, _, faces_at = glued_in_pairs(F)
-    return repeated & (faces_at > 2).any(axis=1)
+    least_first = F[np.arange(len(F))[:, None], (F.argmin(axis=1)[:, None] + np.arange(3)) % 3]
+    places = first_equal_row(V)[F]
+    return (
+        repeats(least_first)
+        | (repeats(np.sort(F, axis=1)) & (faces_at > 2).any(axis=1))
+        | (repeats(np.sort(places, axis=1)) & (faces_at == 1).all(axis=1))
+    )
 
 
 def _orient(F: Ints) -> tuple[Ints, int]:
@@ -143,9 +168,8 @@ def _fill_holes(V: Floats, F: Ints, largest: int) -> tuple[Floats, Ints, int]:
     twin, _, _ = glued_in_pairs(F)
     free = np.flatnonzero(twin.ravel() < 0)
     start, end = F.ravel()[next_corner(free)], F.ravel()[next_corner(free, 2)]
-    graph = coo_array((np.ones(free.size), (start, end)), shape=(len(V), len(V)))
-    loop = connected_components(graph, directed=False)[1][start]
-    _, loop, size = np.unique(loop, return_inverse=True, return_counts=True)
+    _, label = components_of(start, end, len(V))
+    _, loop, size = np.unique(label[start], return_inverse=True, return_counts=True)
     filled = size <= largest
     chosen = filled[loop]
     centre = np.cumsum(filled) - 1

@@ -49,10 +49,10 @@ from scipy.sparse import csr_array
 
 from .delta_complex import DeltaComplex
 from .errors import ComplexError
+from .half_space import check_symplectic
 from .rounding import LEAST_ALLOWANCE, algebraic_allowance, congruence
 from .siegel import siegel_reduce
 from .symplectic import (
-    checked_symplectic,
     cholesky_factor,
     form_action,
     siegel_point,
@@ -186,7 +186,7 @@ class PeriodMatrix:
         ValueError
             If gamma is no integer symplectic matrix of this size.
         """
-        U = form_action(checked_symplectic(gamma, self.genus))
+        U = form_action(check_symplectic(gamma, self.genus))
         D, loss = congruence(U, self.dirichlet)
         return PeriodMatrix(
             dirichlet=D,

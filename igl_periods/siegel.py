@@ -23,13 +23,12 @@ from __future__ import annotations
 import itertools
 from typing import NamedTuple
 
-import flint
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .errors import NotASiegelPointError
 from .half_space import check_siegel_point, moebius, siegel_distance, siegel_transform
-from .lattice import int_array, lll_basis, shortest_first, unimodular_inverse
+from .lattice import lll_basis, product, shortest_first, unimodular_inverse
 
 __all__ = [
     "SiegelReduction",
@@ -172,7 +171,7 @@ def _is_identity(gamma: Ints) -> bool:
 def _product(A: Ints, B: Ints) -> Ints:
     """The exact product of integer matrices, or an error where it does not fit into 64 bits."""
     try:
-        return int_array(flint.fmpz_mat(A.tolist()) * flint.fmpz_mat(B.tolist()))
+        return product(A, B)
     except OverflowError as error:
         raise NotASiegelPointError(
             "the modular transformation does not fit into 64-bit integers: the matrix is too "

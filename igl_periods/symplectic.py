@@ -32,7 +32,7 @@ from __future__ import annotations
 
 import numpy as np
 import scipy.linalg
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from .errors import ComplexError
 
@@ -123,25 +123,6 @@ def is_symplectic(U: NDArray[np.integer], M: NDArray[np.integer] | None = None) 
     left = U.astype(np.float64)
     middle = (form if M is None else M).astype(np.float64)
     return bool(np.array_equal(left @ middle @ left.T, form))
-
-
-def checked_symplectic(gamma: ArrayLike, g: int) -> Ints:
-    """``gamma`` as an integer array, exactly symplectic of size 2g.
-
-    Raises
-    ------
-    ValueError
-        If it is not.
-    """
-    array = np.asarray(gamma)
-    if array.shape != (2 * g, 2 * g) or array.dtype.kind not in "iu":
-        raise ValueError(
-            f"gamma must be an integer matrix of shape ({2 * g}, {2 * g}), not {array.shape} of "
-            f"{array.dtype}."
-        )
-    if not is_symplectic(array):
-        raise ValueError("gamma is not symplectic: gamma J gammaᵀ differs from J.")
-    return array.astype(np.int64)
 
 
 def energy_matrix(Pi: NDArray[np.complex128]) -> Floats:

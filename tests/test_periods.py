@@ -325,7 +325,7 @@ def test_change_of_basis_is_the_moebius_action(computed):
     ("gamma", "message"),
     [
         (np.eye(2, dtype=int), r"shape \(4, 4\)"),
-        (np.eye(4), "integer matrix"),
+        (0.5 * np.eye(4), "integer entries"),
         (2 * np.eye(4, dtype=int), "not symplectic"),
     ],
 )
