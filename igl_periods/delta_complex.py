@@ -40,6 +40,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from .errors import ComplexError, MeshError
 from .gluing import (
+    checked_same,
+    checked_same,
     checked_twin,
     components_of,
     corner_vertices,
@@ -157,7 +159,9 @@ class DeltaComplex:
         return _from_simplicial(checked_lengths(lengths, len(faces)), faces, None)
 
     @classmethod
-    def from_gluing(cls, lengths: ArrayLike, twin: ArrayLike) -> DeltaComplex:
+    def from_gluing(
+        cls, lengths: ArrayLike, twin: ArrayLike, same: ArrayLike | None = None
+    ) -> DeltaComplex:
         """Make a surface from triangles and the gluing of their sides.
 
         Parameters
@@ -167,17 +171,20 @@ class DeltaComplex:
         twin : (m, 3) array-like of int
             ``twin[f, s] = 3 f' + s'`` glues side ``s`` of ``f`` to side ``s'`` of ``f'``, running
             in opposite directions; -1 leaves a side free.
+        same : (m, 3) array-like of bool, optional
+            Sides that are glued running in the same direction instead, so that the orientations
+            of the two faces disagree.
 
         Raises
         ------
         ComplexError
-            If ``twin`` is not an involution without fixed points, lengths are not positive and
-            finite, differ by more than 1e-9 (relative) on glued sides, or miss a triangle
-            inequality beyond what mollification mends.
+            If ``twin`` is not an involution without fixed points, ``same`` differs on glued
+            sides, lengths are not positive and finite, differ by more than 1e-9 (relative) on
+            glued sides, or miss a triangle inequality beyond what mollification mends.
         """
         glued = checked_twin(twin)
-        same = np.zeros(glued.shape, dtype=bool)
-        return _assemble(checked_lengths(lengths, len(glued)), glued, same)
+        alike = checked_same(np.zeros(glued.shape, dtype=bool) if same is None else same, glued)
+        return _assemble(checked_lengths(lengths, len(glued)), glued, alike)
 
     @classmethod
     def from_squares(cls, gluing: Iterable[Sequence[Sequence[int]]], n: int = 1) -> DeltaComplex:
@@ -224,7 +231,10 @@ class DeltaComplex:
     @property
     def n_reversing_edges(self) -> int:
         """Number of edges across which the orientations of the two faces disagree."""
-        return int(np.count_nonzero(_reversing(self))) // 2
+        agree = self.sign.ravel()[self.twin.ravel()] == self.sign.ravel()
+        if self.twin.min() < 0:
+            agree &= self.twin.ravel() >= 0
+        return int(np.count_nonzero(agree)) // 2
 
     @property
     def genus(self) -> int:
@@ -249,6 +259,12 @@ def check_surface(K: DeltaComplex) -> None:
     ComplexError
         Saying which of the three fails, at how many edges, and what to do.
     """
+    check_closed_and_oriented(K)
+    check_connected(K)
+
+
+def check_closed_and_oriented(K: DeltaComplex) -> None:
+    """The first two thirds of :func:`check_surface`."""
     if K.n_boundary_edges:
         raise ComplexError(
             f"the surface is not closed: it has {K.n_boundary_edges} boundary edges. Fill the "
@@ -266,6 +282,10 @@ def check_surface(K: DeltaComplex) -> None:
             f"somewhere (now across {K.n_reversing_edges} edges). It has no period matrix; its "
             "double has one."
         )
+
+
+def check_connected(K: DeltaComplex) -> None:
+    """The last third of :func:`check_surface`."""
     n, label = _face_components(K)
     if n > 1:
         sizes = ", ".join(str(size) for size in np.sort(np.bincount(label))[::-1][:5])

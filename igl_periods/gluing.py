@@ -93,6 +93,28 @@ def checked_twin(twin: ArrayLike) -> Ints:
     return glued
 
 
+def checked_same(same: ArrayLike, twin: Ints) -> Bools:
+    """``same`` as an (m, 3) boolean array, equal on glued sides and False on free ones.
+
+    Raises
+    ------
+    ComplexError
+    """
+    alike = np.asarray(same)
+    if alike.shape != twin.shape or alike.dtype != np.bool_:
+        raise ComplexError(
+            f"same must be a boolean array of the shape of twin, {twin.shape}, not {alike.shape} "
+            f"of {alike.dtype}."
+        )
+    wrong = np.flatnonzero(np.where(twin >= 0, alike != alike.ravel()[twin], alike))
+    if wrong.size:
+        raise ComplexError(
+            f"same differs on the two halves of an edge, or is True on a free side: half-edge "
+            f"{wrong[0]} ({wrong.size} such half-edges)."
+        )
+    return alike
+
+
 def corner_vertices(twin: Ints, same: Bools) -> tuple[Ints, int]:
     """The vertex at each corner: the classes of corners that the gluing identifies.
 

@@ -28,6 +28,7 @@ Chen, Davis, Hager, Rajamanickam, "Algorithm 887: CHOLMOD" (2008).
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,7 +43,9 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 _SOLVES_AT_ONCE = 32
-_NUMBERS_AT_ONCE = 4_000_000
+# Faces or edges handled at once: few enough for the cache, enough for matrix products.
+_FEWEST_AT_ONCE = 2_048
+_NUMBERS_AT_ONCE = 200_000
 
 
 def edge_ends(K: DeltaComplex) -> tuple[Ints, Ints]:
@@ -63,7 +66,7 @@ def laplacian(K: DeltaComplex, weights: Floats) -> csc_array:
     weights : (n_edges,) float
         ρ, for instance :func:`igl_periods.delta_complex.cotan_weights`.
     """
-    lower = _lower_laplacian(K, weights, 0)
+    lower = _lower_laplacian(K.n_vertices, *edge_ends(K), weights, 0)
     strict = lower.copy()
     strict.setdiag(0.0)
     return csc_array(lower + strict.T)
@@ -92,8 +95,8 @@ def harmonic_potentials(K: DeltaComplex, weights: Floats, cochains: csr_array) -
     potentials = np.zeros((K.n_vertices, k))
     if K.n_vertices == 1 or k == 0:
         return potentials
-    factor = factored_laplacian(K, weights)
     tail, head = edge_ends(K)
+    factor = _factored(K.n_vertices, tail, head, weights)
     for start in range(0, k, _SOLVES_AT_ONCE):
         columns = slice(start, min(start + _SOLVES_AT_ONCE, k))
         flux = _outflow(K.n_vertices, tail, head, weights, cochains[columns])
@@ -109,7 +112,11 @@ def factored_laplacian(K: DeltaComplex, weights: Floats) -> Factor:
     ComplexError
         If the weights define no positive definite energy.
     """
-    grounded = _lower_laplacian(K, weights, 1)
+    return _factored(K.n_vertices, *edge_ends(K), weights)
+
+
+def _factored(n: int, tail: Ints, head: Ints, weights: Floats) -> Factor:
+    grounded = _lower_laplacian(n, tail, head, weights, 1)
     try:
         # Supernodal is L Lᵀ, which fails on matrices that are not positive definite; the
         # simplicial L D Lᵀ would go on.
@@ -143,10 +150,10 @@ def dirichlet_matrix(
     """
     k = cochains.shape[0]
     D = np.zeros((k, k))
-    by_edge = cochains.T.tocsr()
+    jumps = _Jumps.of(K, cochains)
     faces = np.arange(K.n_faces) if face_weights is None else np.flatnonzero(face_weights)
-    for block in _blocks(faces, max(1, _NUMBERS_AT_ONCE // max(k, 1))):
-        along, across = _gradients(K, by_edge, potentials, block)
+    for block in _blocks(faces, k):
+        along, across = _gradients(K, jumps, potentials, block)
         if face_weights is not None:
             root = np.sqrt(face_weights[block])[:, None]
             along, across = along * root, across * root
@@ -166,26 +173,26 @@ def weighted_energies(
     D = np.zeros((k, k))
     tail, head = edge_ends(K)
     by_edge = cochains.T.tocsr()
-    for block in _blocks(np.arange(K.n_edges), max(1, _NUMBERS_AT_ONCE // max(k, 1))):
+    for block in _blocks(np.arange(K.n_edges), k):
         forms = by_edge[block].toarray() + (potentials[head[block]] - potentials[tail[block]])
         D += forms.T @ (weights[block, None] * forms)
     return 0.5 * (D + D.T)
 
 
-def _lower_laplacian(K: DeltaComplex, weights: Floats, first: int) -> csc_matrix:
+def _lower_laplacian(n: int, tail: Ints, head: Ints, weights: Floats, first: int) -> csc_matrix:
     """Lower triangle of dᵀ ρ d, from row and column ``first`` on; CHOLMOD reads no more."""
-    tail, head = edge_ends(K)
     low, high = np.minimum(tail, head), np.maximum(tail, head)
-    n = K.n_vertices
     # A loop has no difference of f along it, hence no place in the Laplacian.
-    proper = low < high
-    diagonal = np.bincount(low[proper], weights[proper], n) + np.bincount(
-        high[proper], weights[proper], n
-    )
-    inner = proper & (low >= first)
-    rows = np.concatenate([high[inner], np.arange(first, n)]) - first
-    columns = np.concatenate([low[inner], np.arange(first, n)]) - first
-    values = np.concatenate([-weights[inner], diagonal[first:]])
+    if np.any(low == high):
+        proper = low < high
+        low, high, weights = low[proper], high[proper], weights[proper]
+    diagonal = np.bincount(low, weights, n) + np.bincount(high, weights, n)
+    if first > 0:
+        inner = low >= first
+        low, high, weights = low[inner], high[inner], weights[inner]
+    rows = np.concatenate([high, np.arange(first, n)]) - first
+    columns = np.concatenate([low, np.arange(first, n)]) - first
+    values = np.concatenate([-weights, diagonal[first:]])
     return csc_matrix((values, (rows, columns)), shape=(n - first, n - first))
 
 
@@ -200,8 +207,36 @@ def _outflow(n: int, tail: Ints, head: Ints, weights: Floats, cochains: csr_arra
     return flux.astype(np.float64, copy=False).reshape(n, k)
 
 
+@dataclass(frozen=True, eq=False)
+class _Jumps:
+    """The values of cochains along sides, where they are not 0, in the order of the faces."""
+
+    face: Ints
+    side: Ints
+    cochain: Ints
+    value: Floats
+
+    @classmethod
+    def of(cls, K: DeltaComplex, cochains: csr_array) -> _Jumps:
+        touched = np.zeros(K.n_edges, dtype=bool)
+        touched[cochains.indices] = True
+        half_edge = np.flatnonzero(touched[K.edge.ravel()])
+        values = cochains.T.tocsr()[K.edge.ravel()[half_edge]].tocoo()
+        h = half_edge[values.row]
+        return cls(h // 3, h % 3, values.col, values.data * K.sign.ravel()[h])
+
+    def add_to(self, differences: Floats, faces: Ints, side: int, sign: int) -> None:
+        """Add ``sign`` times the values along a side of the faces, ascending, to (faces, k)."""
+        start, end = np.searchsorted(self.face, [faces[0], faces[-1] + 1])
+        mine = start + np.flatnonzero(self.side[start:end] == side)
+        row = np.searchsorted(faces, self.face[mine])
+        there = faces[np.minimum(row, faces.size - 1)] == self.face[mine]
+        mine, row = mine[there], row[there]
+        differences[row, self.cochain[mine]] += sign * self.value[mine]
+
+
 def _gradients(
-    K: DeltaComplex, by_edge: csr_array, potentials: Floats, faces: Ints
+    K: DeltaComplex, jumps: _Jumps, potentials: Floats, faces: Ints
 ) -> tuple[Floats, Floats]:
     """√area times the components of the gradients along and across side 2; (faces, k) each.
 
@@ -211,19 +246,18 @@ def _gradients(
     l0, l1, l2 = K.lengths[faces].T
     height = double_areas(K.lengths[faces]) / l2
     shear = 0.5 * (1.0 + ((l1 - l0) / l2) * ((l1 + l0) / l2))
-    v0, v1, v2 = K.corner_vertex[faces].T
-    u01 = _cochain_values(K, by_edge, faces, 2) + (potentials[v1] - potentials[v0])
-    u02 = -_cochain_values(K, by_edge, faces, 1) + (potentials[v2] - potentials[v0])
+    corners = potentials[K.corner_vertex[faces]]
+    u01, u02 = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    # Side 2 runs from corner 0 to corner 1, side 1 from corner 2 to corner 0.
+    jumps.add_to(u01, faces, 2, 1)
+    jumps.add_to(u02, faces, 1, -1)
     along = np.sqrt(0.5 * height / l2)[:, None] * u01
     across = np.sqrt(0.5 * l2 / height)[:, None] * (u02 - shear[:, None] * u01)
     return along, across
 
 
-def _cochain_values(K: DeltaComplex, by_edge: csr_array, faces: Ints, side: int) -> Floats:
-    values = by_edge[K.edge[faces, side]].toarray()
-    return np.asarray(values * K.sign[faces, side, None], dtype=np.float64)
-
-
-def _blocks(items: Ints, size: int) -> Iterator[Ints]:
+def _blocks(items: Ints, k: int) -> Iterator[Ints]:
+    """Items in portions for which arrays of k columns have a good size."""
+    size = max(_FEWEST_AT_ONCE, _NUMBERS_AT_ONCE // max(k, 1))
     for start in range(0, items.size, size):
         yield items[start : start + size]

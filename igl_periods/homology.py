@@ -34,7 +34,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import breadth_first_order
 
-from .delta_complex import DeltaComplex, check_surface
+from .delta_complex import DeltaComplex, check_closed_and_oriented, check_connected
 from .errors import ComplexError
 from .symplectic import integer_symplectic_basis, is_symplectic, standard_form
 
@@ -75,6 +75,8 @@ def tree_cotree(K: DeltaComplex, root: int = 0) -> TreeCotree:
     graph = csr_array((np.ones(m, dtype=np.int8), (tail, head)), shape=(K.n_vertices,) * 2)
     before = _predecessors(graph, root)
     vertex_parent = _first_per_node(np.flatnonzero(before[head] == tail), head, K.n_vertices)
+    if np.count_nonzero(vertex_parent < 0) > 1:
+        check_connected(K)
 
     in_tree = np.zeros(K.n_edges, dtype=bool)
     in_tree[K.edge.ravel()[vertex_parent[vertex_parent >= 0]]] = True
@@ -174,7 +176,7 @@ def cochains_and_basis(K: DeltaComplex, root: int = 0) -> tuple[csr_array, NDArr
     The rows of c are supported on single loops of faces, those of T c on many: energies are best
     computed for c, and T applied to the 2g × 2g matrix.
     """
-    check_surface(K)
+    check_closed_and_oriented(K)
     cochains = cotree_cochains(K, tree_cotree(K, root))
     M = pairing(K, cochains, cochains)
     T = integer_symplectic_basis(M)
@@ -200,7 +202,7 @@ def homology_basis(K: DeltaComplex, root: int = 0) -> list[Ints]:
     ComplexError
         If the surface is not closed, oriented and connected.
     """
-    check_surface(K)
+    check_closed_and_oriented(K)
     trees = tree_cotree(K, root)
     cochains = cotree_cochains(K, trees)
     M = pairing(K, cochains, cochains)
@@ -219,10 +221,7 @@ def walk_cochain(K: DeltaComplex, walk: Ints) -> Ints:
 
 
 def _predecessors(graph: csr_array, root: int) -> Ints:
-    order, before = breadth_first_order(graph, root, directed=True, return_predecessors=True)
-    if order.size != graph.shape[0]:
-        raise ComplexError("the surface is not connected.")
-    return before.astype(np.int64)
+    return breadth_first_order(graph, root, directed=True, return_predecessors=True)[1]
 
 
 def _first_per_node(half_edges: Ints, node: Ints, n: int) -> Ints:
