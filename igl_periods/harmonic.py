@@ -126,8 +126,8 @@ def _factored(n: int, tail: Ints, head: Ints, weights: Floats) -> Factor:
         raise ComplexError(
             "the weights define no positive definite energy: the Laplacian is not positive "
             f"definite ({np.count_nonzero(weights < 0)} weights are negative, the least is "
-            f"{weights.min():.3g}; {np.count_nonzero(weights == 0)} are zero). Cotangent weights "
-            "of a Delaunay triangulation always are."
+            f"{weights.min():.3g}; {np.count_nonzero(weights == 0)} are zero). With cotangent "
+            "weights this means that triangles are too extreme for double precision."
         ) from error
     return factor
 

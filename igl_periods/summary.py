@@ -50,6 +50,8 @@ def _complex_rows(pm: PeriodMatrix) -> list[str]:
     digits = 6
     if pm.bound:
         digits = int(np.clip(np.ceil(-np.log10(pm.bound)) + 1, 3, 15))
+    # Adding 0 makes a rounded −0 a 0.
+    Pi = np.round(Pi, digits) + 0.0
     return ["   ".join(f"{z.real:+.{digits}f} {z.imag:+.{digits}f} i" for z in row) for row in Pi]
 
 

@@ -1,0 +1,187 @@
+r"""Surfaces tiled by squares, and by rectangles.
+
+A surface glued from unit squares is flat except at the corners of squares, where its total angle
+is a multiple of π/2.  Divided into n × n smaller squares, each cut into two right triangles, it
+has the weights of the square lattice (1 on sides, 0 on diagonals), and it is the same polyhedral
+surface for every n: its period matrix is known where that of the algebraic curve is.
+
+The three surfaces of Bobenko, Mercat and Schmies (section 4.1) come from R. Silhol.  The pictures
+of the gluings being lost, the gluings used here were found from the vertex counts and the period
+matrices:
+
+* ``"omega_1"``, three squares, one vertex: the L-shaped origami, a translation surface with one
+  point of total angle 6π.  Its curve is y² = x(x − 1)(x − λ)(x − μ)(x − ν) with λ = 8 − 4√3,
+  μ = ½ + 1/√3, ν = 2/√3.
+* ``"omega_2"``, four squares, two vertices of total angle 4π: Bolza's curve y² = x⁵ − x.
+* ``"omega_3"``, six squares, four vertices of total angle 3π: y² = x⁶ − 1, the conformal type of
+  Lawson's minimal surface ξ_{2,1}.
+
+An *origami* is a translation surface: square k has the right neighbour ``right[k]`` and the upper
+neighbour ``up[k]``, and two permutations say everything.
+
+References
+----------
+Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 4.1.
+Silhol, "Genus 2 translation surfaces with an order 4 automorphism" (2006).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from igl_periods.delta_complex import DeltaComplex
+from igl_periods.errors import ComplexError
+from igl_periods.gluing import components_of, squares
+
+Complexes = NDArray[np.complex128]
+Ints = NDArray[np.int64]
+Gluing = list[tuple[tuple[int, int], tuple[int, int]]]
+
+_GLUINGS: dict[str, Gluing] = {
+    "omega_1": [
+        ((0, 1), (1, 3)), ((1, 1), (0, 3)), ((0, 2), (2, 0)),
+        ((2, 2), (0, 0)), ((1, 2), (1, 0)), ((2, 1), (2, 3)),
+    ],
+    "omega_2": [
+        ((0, 0), (1, 0)), ((0, 2), (1, 2)), ((2, 0), (3, 0)), ((2, 2), (3, 2)),
+        ((0, 1), (2, 1)), ((0, 3), (2, 3)), ((1, 1), (3, 3)), ((1, 3), (3, 1)),
+    ],
+    "omega_3": [((k, side), ((k + 1) % 6, side - 1)) for k in range(6) for side in (1, 3)],
+}  # fmt: skip
+
+_PERIOD_MATRICES: dict[str, Complexes] = {
+    "omega_1": np.array([[5, -4], [-4, 5]]) * 1j / 3,
+    "omega_2": (np.array([[-2, 1], [1, -2]]) + 1j * np.sqrt(2) * np.array([[2, -1], [-1, 2]])) / 3,
+    "omega_3": np.array([[2, -1], [-1, 2]]) * 1j / np.sqrt(3),
+}
+
+
+def square_tiled_surface(name: str, n: int = 1) -> DeltaComplex:
+    """Glue one of the paper's three square-tiled surfaces, each square divided into n × n.
+
+    Parameters
+    ----------
+    name : {"omega_1", "omega_2", "omega_3"}
+    n : int
+
+    Raises
+    ------
+    ComplexError
+        If there is no surface of that name, or ``n < 1``.
+
+    Examples
+    --------
+    >>> [square_tiled_surface("omega_2", n).n_vertices for n in (2, 4, 8, 16, 32)]
+    [14, 62, 254, 1022, 4094]
+    """
+    return DeltaComplex.from_squares(_GLUINGS[_known(name)], n)
+
+
+def square_tiled_period_matrix(name: str) -> Complexes:
+    """Return the exact period matrix of one of the paper's three surfaces; shape (2, 2).
+
+    Equal to the period matrix of :func:`square_tiled_surface` up to the action of Sp(4, Z).
+
+    Raises
+    ------
+    ComplexError
+        If there is no surface of that name.
+    """
+    return _PERIOD_MATRICES[_known(name)].copy()
+
+
+def origami(right: ArrayLike, up: ArrayLike, n: int = 1) -> DeltaComplex:
+    """Glue unit squares by translations, as two permutations say.
+
+    Parameters
+    ----------
+    right, up : (N,) array-like of int
+        The square to the right of square k, and the one above it.
+    n : int
+        Each square is divided into n × n.
+
+    Raises
+    ------
+    ComplexError
+        If ``right`` and ``up`` are not permutations of the same squares 0, …, N − 1, or leave the
+        surface disconnected, or ``n < 1``.
+
+    Examples
+    --------
+    >>> origami([1, 0, 2], [2, 1, 0]).genus
+    2
+    """
+    to_right, above = _permutation(right, "right"), _permutation(up, "up")
+    if to_right.size != above.size:
+        raise ComplexError(
+            f"right permutes {to_right.size} squares and up permutes {above.size}: they must "
+            "permute the same ones."
+        )
+    here = np.arange(above.size)
+    n_parts, _ = components_of(np.tile(here, 2), np.concatenate([to_right, above]), here.size)
+    if n_parts > 1:
+        raise ComplexError(
+            f"the origami is not connected: its squares fall into {n_parts} parts. The group "
+            "that right and up generate must be transitive."
+        )
+    pairs = [((k, 1), (r, 3)) for k, r in enumerate(to_right.tolist())]
+    pairs += [((k, 2), (u, 0)) for k, u in enumerate(above.tolist())]
+    return DeltaComplex.from_squares(pairs, n)
+
+
+def glued_rectangles(
+    sizes: ArrayLike, gluing: Iterable[Sequence[Sequence[int]]], n: int = 1
+) -> DeltaComplex:
+    """Glue rectangles, each divided into n × n rectangles of two right triangles.
+
+    Parameters
+    ----------
+    sizes : (N, 2) array-like
+        Width (length of sides 0 and 2) and height (length of sides 1 and 3) of each rectangle.
+    gluing : iterable of ((rectangle, side), (rectangle, side))
+        Sides are 0 bottom, 1 right, 2 top, 3 left; glued sides run in opposite directions.
+    n : int
+
+    Raises
+    ------
+    ComplexError
+        If a side does not exist or is not glued exactly once, to another side, if sides of
+        different length are glued, if ``sizes`` are not N pairs of positive numbers, or ``n < 1``.
+    """
+    _, twin = squares(gluing, n)
+    size = np.asarray(sizes, dtype=np.float64)
+    n_rectangles = len(twin) // (2 * n * n)
+    if size.shape != (n_rectangles, 2):
+        raise ComplexError(
+            f"sizes must have shape ({n_rectangles}, 2), a width and a height for each rectangle "
+            f"of the gluing, not {size.shape}."
+        )
+    width, height = np.repeat(size / n, n * n, axis=0).T
+    diagonal = np.hypot(width, height)
+    lengths = np.empty((len(twin), 3))
+    lengths[0::2] = np.stack([height, diagonal, width], axis=1)
+    lengths[1::2] = np.stack([width, height, diagonal], axis=1)
+    return DeltaComplex.from_gluing(lengths, twin)
+
+
+def _known(name: str) -> str:
+    if name not in _GLUINGS:
+        raise ComplexError(
+            f"there is no square-tiled surface {name!r}; the names are {', '.join(_GLUINGS)}. "
+            "Other gluings of squares: origami, DeltaComplex.from_squares."
+        )
+    return name
+
+
+def _permutation(images: ArrayLike, what: str) -> Ints:
+    array = np.asarray(images)
+    if array.ndim != 1 or array.size == 0 or array.dtype.kind not in "iu":
+        raise ComplexError(f"{what} must be a list of squares, not an array {array.shape}.")
+    if not np.array_equal(np.sort(array), np.arange(array.size)):
+        raise ComplexError(
+            f"{what} is no permutation of 0, …, {array.size - 1}: {array.tolist()[:12]}."
+        )
+    return array.astype(np.int64)
