@@ -12,7 +12,7 @@ import igl_periods as ip
 from igl_periods.homology import pairing
 from igl_periods.symplectic import standard_form
 
-many = settings(max_examples=600, deadline=None, suppress_health_check=list(HealthCheck))
+many = settings(max_examples=300, deadline=None, suppress_health_check=list(HealthCheck))
 seeds = st.integers(0, 2**32 - 1)
 
 
@@ -30,7 +30,9 @@ def check_result(pm):
     # d ≥ 1 is the bracket J D⁻¹ Jᵀ ≤ D, up to what the bound allows for rounding.
     assert pm.symplectic_eigenvalues[-1] >= 1 - pm.rounding_allowance
     reduced = pm.reduced()
-    assert np.all(np.abs(reduced.matrix.real) <= 0.5 + 1e-9)
+    scale = np.sqrt(np.diag(reduced.matrix.imag))
+    uncertain = reduced.rounding_allowance * np.outer(scale, scale)
+    assert np.all(np.abs(reduced.matrix.real) <= 0.5 + 1e-9 + uncertain)
     # The bound does not depend on the marking, up to the rounding that it allows for.
     assert (
         abs(reduced.symplectic_eigenvalues[0] / pm.symplectic_eigenvalues[0] - 1)
