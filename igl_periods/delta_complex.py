@@ -41,7 +41,6 @@ from numpy.typing import ArrayLike, NDArray
 from .errors import ComplexError, MeshError
 from .gluing import (
     checked_same,
-    checked_same,
     checked_twin,
     components_of,
     corner_vertices,

@@ -151,7 +151,7 @@ def _text(lines: list[bytes], element: _Element) -> list[_Column]:
     at = np.zeros(len(rows), dtype=np.int64)
     for p in element.properties:
         if p.count is None:
-            lengths = np.ones(len(rows), dtype=np.int64)
+            lengths: Ints = np.ones(len(rows), dtype=np.int64)
         else:
             lengths = np.array([int(row[i]) for row, i in zip(rows, at)], dtype=np.int64)
             at += 1

@@ -31,7 +31,7 @@ def summary(pm: PeriodMatrix, reduced: PeriodMatrix, gamma: NDArray[np.int64]) -
         _indented(_complex_rows(reduced)),
         "How far it can be off:",
         _indented(_bound_in_words(reduced)),
-        "Π = (a Π₀ + b)(c Π₀ + d)⁻¹ with Π₀ in the marking of the mesh, [[a, b], [c, d]] =",
+        "Π = (a Π₀ + b)(c Π₀ + d)⁻¹, Π₀ in the marking of the mesh, [[a, b], [c, d]] =",
         _indented(_integer_rows(gamma)),
     ]
     if pm.complex.mollification:

@@ -101,7 +101,9 @@ def wente():
     text = (
         "Wente's immersed torus of constant mean curvature ½ with three lobes, on a 20 × 20 grid "
         "of conformal coordinates:\n`wente_torus(20)`.\n\n"
-        + shown(np.array([[wente_modulus()]]), "exp(2i arctan(X/3Y)), see `igl_periods.surfaces.wente`")
+        + shown(
+            np.array([[wente_modulus()]]), "exp(2i arctan(X/3Y)), see `igl_periods.surfaces.wente`"
+        )
     )
     return "wente_20x20.obj", obj(V, F), len(V), len(F), 1, text
 
@@ -110,7 +112,9 @@ def hyperelliptic():
     K = cyclic_cover(2, np.exp(2j * np.pi * np.arange(5) / 5), size=0.25, graded=True)
     c, s, t = np.cos(2 * np.pi / 5), np.sin(2 * np.pi / 5), np.sin(np.pi / 5)
     Pi = np.array([[2j * t, c - 0.5 - 1j * t], [c - 0.5 - 1j * t, -c + 1j * s]])
-    formula = "[[2i t, c − ½ − i t], [c − ½ − i t, −c + i s]], c = cos 72°, s = sin 72°, t = sin 36°"
+    formula = (
+        "[[2i t, c − ½ − i t], [c − ½ − i t, −c + i s]], c = cos 72°, s = sin 72°, t = sin 36°"
+    )
     text = (
         "The curve y² = x⁵ − 1: two sheets over an inscribed polyhedral sphere, with triangles "
         "graded towards the six branch\npoints: `cyclic_cover(2, roots, size=0.25, graded=True)`."
@@ -129,7 +133,7 @@ def square_tiled(name):
     }
     text = (
         f"The paper's surface of {squares} unit squares ({description}), each square divided into "
-        f"4 × 4:\n`square_tiled_surface(\"{name}\", 4)`.\n\n"
+        f'4 × 4:\n`square_tiled_surface("{name}", 4)`.\n\n'
         + shown(square_tiled_period_matrix(name), formulas[name])
     )
     return f"{name}.json", gluing(K), K.n_vertices, K.n_faces, 2, text

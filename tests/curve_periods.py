@@ -1,8 +1,8 @@
 r"""Period matrices of cyclic covers yⁿ = ∏ (x − e_i)^{m_i} by quadrature; nothing of the library.
 
 The x-sphere is triangulated: a Delaunay triangulation of the branch points and a polygon round
-them, and ∞ joined to the polygon by rays.  No triangle has a branch point inside, so all log(x − e_i)
-have branches on it; n copies of it are glued where y continues.  The holomorphic forms
+them, and ∞ joined to the polygon by rays.  No triangle has a branch point inside, so log(x − e_i)
+has branches on it; n copies of it are glued where y continues.  The holomorphic forms
 
     ∏ (x − e_i)^{−{b m_i / n}} x^j dx,    0 < b < n,   0 ≤ j < Σ_i {b m_i / n} − 1,
 
@@ -149,7 +149,7 @@ def straight(curve, points, p, q, centre, log, fraction, j):
 
 
 def to_infinity(curve, points, p, centre, log, fraction, j):
-    """Along x = middle + (p − middle)/s, 0 < s ≤ 1, where the form is s^{Σ{·} − j − 2} × analytic."""
+    """Along x = middle + (p − middle)/s, 0 < s ≤ 1; the form is s^{Σ{·} − j − 2} × analytic."""
     middle = points[-8:].mean()
     ray = points[p] - middle
     exponent = fraction.sum() - j - 2

@@ -17,9 +17,10 @@ C5, S5 = np.cos(2 * np.pi / 5), np.sin(2 * np.pi / 5)
 X5 = np.array([[2 * np.sin(np.pi / 5) * 1j, C5 - 0.5 - np.sin(np.pi / 5) * 1j],
                [C5 - 0.5 - np.sin(np.pi / 5) * 1j, -C5 + S5 * 1j]])  # fmt: skip
 # y² = x⁵ + x⁴ + x³ − x + 4, from the tests of Hecke (RieSrf).
+HECKE_OFF_DIAGONAL = 0.37968242378136137666 + 0.01931936639996602903j
 HECKE = np.array([
-    [0.5113438425838405028 + 0.3793845307485294315j, 0.37968242378136137666 + 0.01931936639996602903j],
-    [0.37968242378136137666 + 0.01931936639996602903j, 0.5515666804208422259 + 0.7989131245853492630j],
+    [0.5113438425838405028 + 0.3793845307485294315j, HECKE_OFF_DIAGONAL],
+    [HECKE_OFF_DIAGONAL, 0.5515666804208422259 + 0.7989131245853492630j],
 ])  # fmt: skip
 # y² = x⁸ − 1, Lawson's ξ_{3,1}; isomorphic to the matrix in FLINT's issue 2017.
 S = np.sqrt(2)

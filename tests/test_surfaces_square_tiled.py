@@ -1,4 +1,4 @@
-"""Square-tiled surfaces: the paper's table, corrected where the print is wrong, and exact values."""
+"""Square-tiled surfaces: the paper's table, corrected where the print is wrong; exact values."""
 
 import curve_periods
 import numpy as np

