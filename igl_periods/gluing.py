@@ -129,8 +129,8 @@ def corner_vertices(twin: Ints, same: Bools) -> tuple[Ints, int]:
     start, end = next_corner(half_edge), next_corner(half_edge, 2)
     other_start, other_end = next_corner(other), next_corner(other, 2)
     crossed = same.ravel()[half_edge]
-    one = np.concatenate([start, end])
-    two = np.concatenate(
+    one: Ints = np.concatenate([start, end])
+    two: Ints = np.concatenate(
         [np.where(crossed, other_start, other_end), np.where(crossed, other_end, other_start)]
     )
     n, label = components_of(one, two, twin.size)

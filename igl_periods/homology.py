@@ -235,7 +235,8 @@ def _first_per_node(half_edges: Ints, node: Ints, n: int) -> Ints:
 def _climb(parent: Ints, K: DeltaComplex, faces: Ints, loops: Ints) -> tuple[Ints, Ints]:
     """The half-edges passed from each face to the root, with the loop each belongs to."""
     twin = K.twin.ravel()
-    passed, owner = [np.zeros(0, dtype=np.int64)], [loops[:0]]
+    passed: list[Ints] = [faces[:0]]
+    owner: list[Ints] = [loops[:0]]
     while faces.size:
         half_edge = parent[faces]
         below = half_edge >= 0

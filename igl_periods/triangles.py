@@ -94,7 +94,7 @@ def mollify(lengths: Floats) -> tuple[Floats, float]:
     if not 0.0 < delta <= _LARGEST_MOLLIFICATION * mean:
         raise ComplexError(
             f"face {worst} is degenerate: its sides {_in_words(lengths[worst])} miss the strict "
-            f"triangle inequality by {max(-slack[worst], 0.0):.3g}, where the mean length is "
+            f"triangle inequality by {max(0.0, -slack[worst]):.3g}, where the mean length is "
             f"{mean:.3g}, and at most {_LARGEST_MOLLIFICATION:g} of that is mended by "
             "mollification. Are these the lengths of one surface, the coordinates not all equal?"
         )
