@@ -58,6 +58,11 @@ def _parser() -> argparse.ArgumentParser:
         action="store_false",
         help="keep the triangulation as it is (the bound is less sharp)",
     )
+    compute.add_argument(
+        "--repair",
+        action="store_true",
+        help="weld, drop, orient and split what keeps the mesh from being a surface",
+    )
     compute.add_argument("--quiet", action="store_true", help="no stage names on the terminal")
     compute.set_defaults(run=_compute)
     return parser
@@ -65,12 +70,12 @@ def _parser() -> argparse.ArgumentParser:
 
 def _compute(options: argparse.Namespace) -> int:
     with stage("reading the mesh"):
-        V, F, report = load_mesh(options.mesh)
+        V, F, report = load_mesh(options.mesh, repair=options.repair)
     pm = period_matrix(V, F, weights=options.weights, delaunay=options.delaunay)
     with stage("Siegel reduction"):
         reduced, gamma = siegel_reduced(pm)
     if options.json:
-        chosen = {"weights": options.weights, "delaunay": options.delaunay}
+        chosen = {name: getattr(options, name) for name in ("weights", "delaunay", "repair")}
         document = {
             **result_to_json(pm, reduced, gamma),
             "options": chosen,

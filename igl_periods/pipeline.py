@@ -40,8 +40,9 @@ def period_matrix(
 
     Parameters
     ----------
-    surface : (n, d) array-like or DeltaComplex
-        Vertex positions V of a triangle mesh, or a complex.
+    surface : (n, d) array-like, DeltaComplex, or mesh object
+        Vertex positions V of a triangle mesh, a complex, or an object with ``vertices`` and
+        ``triangles`` or ``faces``, such as Open3D's ``TriangleMesh``.
     F : (m, 3) array-like of int, optional
         Corners of the triangles, with V.
     weights : {"intrinsic", "extrinsic"}
@@ -107,15 +108,22 @@ def period_matrix_from_weights(rho: ArrayLike, twin: ArrayLike) -> PeriodMatrix:
 
 
 def as_complex(surface: Any, F: ArrayLike | None = None) -> DeltaComplex:
-    """The Δ-complex of ``(V, F)``, or ``surface`` itself if it is one."""
+    """The Δ-complex of ``(V, F)`` or of a mesh object, or ``surface`` itself if it is one.
+
+    Mesh objects are Open3D's ``TriangleMesh`` and whatever else has ``vertices`` and ``triangles``
+    or ``faces``.
+    """
     if isinstance(surface, DeltaComplex):
         if F is not None:
             raise MeshError("a DeltaComplex has its own faces: leave F away.")
         return surface
+    if F is None and hasattr(surface, "vertices"):
+        faces = "triangles" if hasattr(surface, "triangles") else "faces"
+        surface, F = np.asarray(surface.vertices), getattr(surface, faces, None)
     if F is None:
         raise MeshError("faces are missing: call period_matrix(V, F), or period_matrix(K).")
     with stage("surface"):
-        return DeltaComplex.from_mesh(surface, F)
+        return DeltaComplex.from_mesh(surface, np.asarray(F))
 
 
 def _certified(K: DeltaComplex, delaunay: bool) -> PeriodMatrix:

@@ -53,7 +53,7 @@ def test_json_is_complete_and_consistent(torus, capsys):
         "vertices": 240, "edges": 720, "faces": 480, "genus": 1, "mollification": 0.0
     }  # fmt: skip
     assert document["mesh"]["loaded"]["triangles"] == 480
-    assert document["options"] == {"weights": "intrinsic", "delaunay": True}
+    assert document["options"] == {"weights": "intrinsic", "delaunay": True, "repair": False}
     assert document["version"] == ip.__version__
 
 

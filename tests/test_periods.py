@@ -1,6 +1,7 @@
 """Period matrices: exact values, the certificate, invariance, convergence."""
 
 import pickle
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -439,6 +440,19 @@ def test_arguments_that_are_no_surface():
     V, F = torus_of_revolution(2.0, 0.5, 6, 5)
     with pytest.raises(ip.ComplexError, match="2 components"):
         ip.period_matrix(np.concatenate([V, V]), np.concatenate([F, F + len(V)]))
+
+
+def test_mesh_objects_are_taken():
+    open3d = pytest.importorskip("open3d")
+    V, F = torus_of_revolution(2.0, 0.5, 8, 6)
+    expected = ip.period_matrix(V, F).matrix
+    vertices = open3d.utility.Vector3dVector(V)
+    mesh = open3d.geometry.TriangleMesh(vertices, open3d.utility.Vector3iVector(F))
+    assert np.array_equal(ip.period_matrix(mesh).matrix, expected)
+    other = SimpleNamespace(vertices=V.tolist(), faces=F.tolist())
+    assert np.array_equal(ip.period_matrix(other).matrix, expected)
+    with pytest.raises(ip.MeshError, match="faces are missing"):
+        ip.period_matrix(SimpleNamespace(vertices=V))
 
 
 def test_lengths_suffice():
