@@ -10,7 +10,13 @@
 
 from importlib.metadata import version as _version
 
+from .automorphisms import SymplecticGroup as SymplecticGroup
+from .automorphisms import symplectic_automorphism_group as symplectic_automorphism_group
+from .catalogue import catalogue as catalogue
 from .delta_complex import DeltaComplex as DeltaComplex
+from .equivalence import Isomorphisms as Isomorphisms
+from .equivalence import moduli_distance as moduli_distance
+from .equivalence import symplectic_isomorphisms as symplectic_isomorphisms
 from .errors import ComplexError as ComplexError
 from .errors import MeshError as MeshError
 from .errors import NotASiegelPointError as NotASiegelPointError
@@ -18,6 +24,9 @@ from .half_space import siegel_distance as siegel_distance
 from .half_space import siegel_transform as siegel_transform
 from .homology import cohomology_basis as cohomology_basis
 from .homology import homology_basis as homology_basis
+from .identification import Identification as Identification
+from .identification import identify as identify
+from .invariants import to_flint as to_flint
 from .mesh import MeshReport as MeshReport
 from .mesh import load_mesh as load_mesh
 from .periods import PeriodMatrix as PeriodMatrix

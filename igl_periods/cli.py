@@ -11,8 +11,9 @@ import logging
 import sys
 from collections.abc import Sequence
 
-from .mesh import load_mesh
-from .periods import siegel_reduced
+from .identification import identify
+from .mesh import MeshReport, load_mesh
+from .periods import PeriodMatrix, siegel_reduced
 from .pipeline import period_matrix
 from .serialization import result_to_json
 from .stages import logger, stage
@@ -44,34 +45,64 @@ def _parser() -> argparse.ArgumentParser:
         help="the period matrix of a mesh",
         description="Compute the period matrix of a closed, oriented, connected triangle mesh.",
     )
-    compute.add_argument("mesh", metavar="MESH", help="a mesh file (OBJ, OFF, PLY, STL, …)")
+    _add_mesh_arguments(compute)
     compute.add_argument("--json", action="store_true", help="print one JSON document")
-    compute.add_argument(
+    compute.set_defaults(run=_compute)
+    recognise = commands.add_parser(
+        "identify",
+        help="which named surfaces a mesh can be",
+        description="Compare the period matrix of a mesh with those of named surfaces.",
+    )
+    _add_mesh_arguments(recognise)
+    recognise.add_argument(
+        "--tolerance",
+        type=float,
+        help="how far the mesh may be from the surface that it samples (a Siegel distance)",
+    )
+    recognise.set_defaults(run=_identify)
+    return parser
+
+
+def _add_mesh_arguments(command: argparse.ArgumentParser) -> None:
+    """What every command needs to get from a mesh file to a period matrix."""
+    command.add_argument("mesh", metavar="MESH", help="a mesh file (OBJ, OFF, PLY, STL, …)")
+    command.add_argument(
         "--weights",
         choices=("intrinsic", "extrinsic"),
         default="intrinsic",
         help="measure edge weights on the surface (default), or in space (no bound)",
     )
-    compute.add_argument(
+    command.add_argument(
         "--no-delaunay",
         dest="delaunay",
         action="store_false",
         help="keep the triangulation as it is (the bound is less sharp)",
     )
-    compute.add_argument(
+    command.add_argument(
         "--repair",
         action="store_true",
         help="weld, drop, orient and split what keeps the mesh from being a surface",
     )
-    compute.add_argument("--quiet", action="store_true", help="no stage names on the terminal")
-    compute.set_defaults(run=_compute)
-    return parser
+    command.add_argument("--quiet", action="store_true", help="no stage names on the terminal")
+
+
+def _period_matrix(options: argparse.Namespace) -> tuple[PeriodMatrix, MeshReport]:
+    with stage("reading the mesh"):
+        V, F, report = load_mesh(options.mesh, repair=options.repair)
+    return period_matrix(V, F, weights=options.weights, delaunay=options.delaunay), report
+
+
+def _identify(options: argparse.Namespace) -> int:
+    pm, report = _period_matrix(options)
+    with stage("comparing"):
+        found = identify(pm, tolerance=options.tolerance)
+    print(f"{report}\n")
+    print(found)
+    return 0
 
 
 def _compute(options: argparse.Namespace) -> int:
-    with stage("reading the mesh"):
-        V, F, report = load_mesh(options.mesh, repair=options.repair)
-    pm = period_matrix(V, F, weights=options.weights, delaunay=options.delaunay)
+    pm, report = _period_matrix(options)
     with stage("Siegel reduction"):
         reduced, gamma = siegel_reduced(pm)
     if options.json:

@@ -88,7 +88,8 @@ def intrinsic_delaunay(K: DeltaComplex, cochains: csr_array) -> tuple[DeltaCompl
 def delaunay_flips(K: DeltaComplex) -> tuple[DeltaComplex, list[Flips]]:
     """The intrinsic Delaunay complex, and the rounds of flips that lead to it."""
     cot = cotangents(K.lengths)
-    suspects = np.unique(K.edge.ravel()[_is_bad(cot.ravel(), cot.ravel()[K.twin.ravel()])])
+    bad = _is_bad(cot.ravel(), cot.ravel()[K.twin.ravel()])
+    suspects = _distinct(K.n_edges, K.edge.ravel()[bad])
     if suspects.size == 0:
         return K, []
     mesh = _FlippableMesh.of(K, cot)
@@ -103,7 +104,7 @@ def delaunay_flips(K: DeltaComplex) -> tuple[DeltaComplex, list[Flips]]:
         chosen, waiting = mesh.independent(order.permutation(suspects))
         flips, touched = mesh.flip(chosen)
         rounds.append(flips)
-        suspects = mesh.bad_edges(np.union1d(touched, waiting))
+        suspects = mesh.bad_edges(_distinct(K.n_edges, touched, waiting))
     flipped = replace(
         K,
         lengths=mesh.lengths.reshape(-1, 3),
@@ -259,6 +260,14 @@ class _FlippableMesh:
         self.sign[h], self.sign[t] = 1, -1
         self.twin[h], self.twin[t] = t, h
         self.half_edge[edges] = h
+
+
+def _distinct(n: int, *indices: Ints) -> Ints:
+    """The indices below n that occur, ascending."""
+    occurs = np.zeros(n, dtype=bool)
+    for some in indices:
+        occurs[some] = True
+    return np.flatnonzero(occurs)
 
 
 def _is_bad(cot_here: Floats, cot_there: Floats) -> NDArray[np.bool_]:

@@ -24,7 +24,6 @@ subtracts nearly parallel forms.
 from __future__ import annotations
 
 import numpy as np
-import scipy.linalg
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
@@ -63,7 +62,7 @@ def geometric_allowance(
     if len(D) == 0 or not extreme.any():
         return _ERROR * _ORDINARY
     loss = dirichlet_matrix(K, cochains, potentials, extreme)
-    inverse = _inverse(cholesky_factor(D))
+    inverse = np.linalg.inv(cholesky_factor(D))
     return _ERROR * (_ORDINARY + float(np.linalg.norm(inverse @ loss @ inverse.T, 2)))
 
 
@@ -77,7 +76,7 @@ def congruence(U: NDArray[np.integer], D: Floats) -> tuple[Floats, float]:
     changed = 0.5 * (changed + changed.T)
     if len(D) == 0:
         return changed, 0.0
-    inverse = _inverse(cholesky_factor(changed))
+    inverse = np.linalg.inv(cholesky_factor(changed))
     t = np.abs(U) @ np.sqrt(np.diag(D))
     return changed, _ERROR * float(np.sum((np.abs(inverse) @ t) ** 2))
 
@@ -94,9 +93,3 @@ def algebraic_allowance(D: Floats) -> float:
     skew = R[:g].T @ R[g:]
     _, inversion = congruence(np.eye(len(D), dtype=np.int64), D)
     return _ERROR * float(np.linalg.norm(skew + skew.T, 2)) + inversion
-
-
-def _inverse(R: Floats) -> Floats:
-    """The inverse of a lower triangular matrix."""
-    inverse: Floats = scipy.linalg.solve_triangular(R, np.eye(len(R)), lower=True)
-    return inverse

@@ -1,0 +1,267 @@
+"""Exact period matrices of named surfaces by second routes, and identification."""
+
+import math
+from itertools import combinations, pairwise
+
+import numpy as np
+import pytest
+from curve_periods import period_matrix as curve_period_matrix
+from modular_words import random_point, random_word
+
+import igl_periods as ip
+from igl_periods.catalogue import binomial_period_matrix, catalogue
+from igl_periods.equivalence import moduli_distance, symplectic_isomorphisms
+from igl_periods.errors import NotASiegelPointError
+from igl_periods.identification import identify
+from igl_periods.siegel import siegel_distance, siegel_transform
+from igl_periods.surfaces import (
+    cyclic_cover,
+    flat_torus,
+    lawson_period_matrix,
+    lawson_surface,
+    regular_map_surface,
+    square_tiled_surface,
+    stereographic,
+    torus_of_revolution,
+)
+
+ROOT2, ROOT7 = 2**0.5, 7**0.5
+
+
+def surface(name: str, genus: int):
+    return next(s for s in catalogue(genus) if name in (s.name, *s.aliases))
+
+
+def symmetric(*rows: list) -> np.ndarray:
+    """The symmetric matrix with these rows of its upper triangle."""
+    Pi = np.zeros((len(rows), len(rows)), dtype=complex)
+    for i, row in enumerate(rows):
+        Pi[i, i:] = Pi[i:, i] = row
+    return Pi
+
+
+# --- the catalogue -----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("genus", range(1, 7))
+def test_no_two_entries_are_the_same_surface(genus):
+    entries = catalogue(genus)
+    assert all(entry.genus == genus == len(entry.matrix) for entry in entries)
+    names = [name for entry in entries for name in (entry.name, *entry.aliases)]
+    assert len(set(names)) == len(names)
+    assert all(entry.source for entry in entries)
+    for one, two in combinations(entries, 2):
+        found = symplectic_isomorphisms(one.matrix, two.matrix, 1e-3)
+        assert found == []
+        assert found.complete
+
+
+@pytest.mark.parametrize("n", range(3, 13))
+def test_binomial_curves_by_quadrature(n):
+    points = np.exp(2j * np.pi * np.arange(n) / n)
+    exact = curve_period_matrix(2, points)
+    assert len(exact) == (n - 1) // 2
+    assert symplectic_isomorphisms(binomial_period_matrix(n), exact, 1e-8)
+
+
+@pytest.mark.parametrize(
+    ("name", "n", "points", "multiplicities"),
+    [
+        ("Omega_1", 2, [0, 1, 8 - 4 * 3**0.5, 0.5 + 3**-0.5, 2 * 3**-0.5], None),
+        ("Omega_2", 2, [0, 1, -1, 1j, -1j], None),
+        ("Omega_3", 2, np.exp(2j * np.pi * np.arange(6) / 6), None),
+        ("Fermat quartic", 4, np.exp(2j * np.pi * np.arange(4) / 4), None),
+        ("Klein quartic", 7, [0, 1], [1, 2]),
+        ("gyroid", 2, np.roots([1, 0, 0, 0, 14, 0, 0, 0, 1]), None),
+        ("Lawson xi_{2,2}", 3, np.exp(1j * np.pi * np.arange(6) / 3), [1, 2] * 3),
+        ("Lawson xi_{3,2}", 3, np.exp(1j * np.pi * np.arange(8) / 4), [1, 2] * 4),
+    ],
+)
+def test_curves_by_quadrature(name, n, points, multiplicities):
+    exact = curve_period_matrix(n, points, multiplicities)
+    found = symplectic_isomorphisms(surface(name, len(exact)).matrix, exact, 1e-8)
+    assert found, found.verdict
+
+
+@pytest.mark.parametrize("m", range(1, 6))
+def test_lawson_surfaces_are_hyperelliptic_for_k_1(m):
+    exact = lawson_period_matrix(m, 1)
+    assert symplectic_isomorphisms(binomial_period_matrix(2 * m + 2), exact)
+    assert surface(f"Lawson xi_{{{m},1}}", m).matrix.shape == (m, m)
+
+
+@pytest.mark.parametrize(
+    ("name", "published"),
+    [
+        # abelfunctions, test_homology.py: periods of the Klein and Fermat quartics, recognised.
+        (
+            "Klein quartic",
+            symmetric(
+                [(9 + 3j * ROOT7) / 8, (3 + 1j * ROOT7) / 4, (-3 - 1j * ROOT7) / 8],
+                [(1 + 1j * ROOT7) / 2, (1 - 1j * ROOT7) / 4],
+                [(1 + 3j * ROOT7) / 8],
+            ),
+        ),
+        ("Fermat quartic", symmetric([1 + 1j, -0.5 - 0.5j, 0], [0.5 + 1j, 0.5 - 0.5j], [1j])),
+        # flint issue #2017, five digits, recognised.
+        (
+            "Lawson xi_{3,1}",
+            symmetric(
+                [(2 + ROOT2) / 4 * 1j, 0.5, (2 - ROOT2) / 4 * 1j], [ROOT2 / 2 * 1j, -0.5], [0]
+            )
+            + np.diag([0, 0, (2 + ROOT2) / 4 * 1j]),
+        ),
+        # README of abelfunctions, the curve y³ + 2x³y − x⁷, nine digits.
+        (
+            "y^2 = x^5 - 1",
+            symmetric([-1.30901699 + 0.95105652j, -0.80901699 + 0.58778525j], [-1 + 1.1755705j]),
+        ),
+    ],
+)
+def test_published_matrices(name, published):
+    entry = surface(name, len(published))
+    assert moduli_distance(published, entry.matrix, 1e-7) < 1e-7
+
+
+def test_tori():
+    assert surface("Clifford torus", 1).matrix == [[1j]]
+    rho = surface("Fermat cubic", 1).matrix
+    assert abs(rho[0, 0] ** 3 + 1) < 1e-15
+    # Bobenko, Mercat, Schmies, section 4.2.
+    assert abs(surface("Wente torus", 1).matrix[0, 0] - (0.41300 + 0.91073j)) < 1e-4
+
+
+def test_binomial_curves_start_at_genus_one():
+    with pytest.raises(ValueError, match="take n >= 3"):
+        binomial_period_matrix(2)
+
+
+# --- identification ----------------------------------------------------------------------------
+
+
+def lawson(in_space: bool):
+    V, F = lawson_surface(2, 1, 6)
+    return (stereographic(V, 2, 1) if in_space else V), F
+
+
+# Name, whether the polyhedral surface has exactly this conformal type, and how to make it.
+SURFACES = [
+    ("Omega_3", False, lambda: lawson(False)),
+    ("Omega_3", False, lambda: lawson(True)),
+    ("Omega_3", True, lambda: (square_tiled_surface("omega_3", 3),)),
+    ("Omega_3", False, lambda: (cyclic_cover(2, np.exp(2j * np.pi * np.arange(6) / 6)),)),
+    ("Omega_2", True, lambda: (square_tiled_surface("omega_2", 4),)),
+    ("Omega_2", True, lambda: (regular_map_surface("bolza", 3),)),
+    ("Omega_2", False, lambda: (cyclic_cover(2, [0, 1, -1, 1j, -1j]),)),
+    ("Omega_1", True, lambda: (square_tiled_surface("omega_1", 6),)),
+    ("Klein quartic", True, lambda: (regular_map_surface("klein", 2),)),
+    ("Fermat quartic", True, lambda: (regular_map_surface("fermat", 2),)),
+    ("gyroid", True, lambda: (regular_map_surface("schwarz_p", 4),)),
+    ("Bring curve", True, lambda: (regular_map_surface("bring", 2),)),
+    ("square torus", False, lambda: torus_of_revolution(2**0.5, 1.0, 48, 48)),
+]
+
+
+@pytest.mark.parametrize(("name", "exact", "make"), SURFACES)
+def test_meshes_are_identified(name, exact, make):
+    pm = ip.period_matrix(*make())
+    result = identify(pm)
+    nearest = result[0]
+    assert name in (nearest.surface.name, *nearest.surface.aliases)
+    assert nearest.distance < 0.03
+    assert nearest.deviation <= nearest.distance <= math.sqrt(pm.genus) * nearest.deviation + 1e-12
+    moved = siegel_transform(nearest.gamma, pm.matrix)
+    assert abs(siegel_distance(moved, nearest.surface.matrix) - nearest.distance) < 1e-9
+    if exact:  # a certificate that proved otherwise would be wrong
+        assert "consistent with the certificate" in nearest.claim
+    assert all(one.distance <= two.distance for one, two in pairwise(result))
+
+
+def test_real_meshes(computed):
+    # A mesh of Wente's torus made by others; it stores the faces inside out, but the torus is real.
+    (nearest, *_) = identify(computed("wente_torus02.obj"))
+    assert nearest.surface.name == "Wente torus"
+    assert nearest.distance < 1e-3
+    assert "consistent with the certificate" in nearest.claim
+    for name in ("eight.off", "3holes.obj", "fertility.off"):
+        assert len(identify(computed(name))) == 0
+
+
+@pytest.mark.parametrize("genus", [1, 2, 3, 4])
+def test_a_generic_surface_matches_nothing(genus):
+    Pi = random_point(genus, np.random.default_rng(4))
+    result = identify(Pi)
+    assert len(result) == 0
+    assert result.undecided == ()
+    n = len(catalogue(genus))
+    assert str(result) == f"none of {n} named surfaces of genus {genus} is within 0.1"
+
+
+@pytest.mark.parametrize("genus", [2, 3, 5, 6])
+def test_entries_are_identified_in_any_marking(genus):
+    for entry in catalogue(genus):
+        word = random_word(genus, 20, np.random.default_rng(1), 5)
+        result = identify(siegel_transform(word, entry.matrix))
+        assert result[0].surface.name == entry.name
+        assert result[0].distance < 1e-9
+        assert "consistent with the accuracy of the array (1e-08)" in result[0].claim
+
+
+def test_claims_follow_certificate_and_mesh_error():
+    # A flat torus is known exactly: it is not the square one, but a rough mesh of it might be.
+    pm = ip.period_matrix(flat_torus(1.02j))
+    assert pm.bound < 1e-10
+    (match,) = identify(pm)
+    assert abs(match.distance - math.log(1.02)) < 1e-10
+    assert match.claim == "within 0.02: the polyhedral surface is proved to be another one"
+    (match,) = identify(pm, tolerance=0.03)
+    assert match.claim == (
+        "within 0.02: consistent with the stated error of the mesh (0.03); this does not prove it; "
+        "the polyhedral surface is proved to be another one"
+    )
+    (match,) = identify(pm, tolerance=0.01)
+    assert "not consistent with the stated error of the mesh (0.01)" in match.claim
+    (match,) = identify(ip.period_matrix(flat_torus(1j)), tolerance=0.01)
+    assert "consistent with the certificate" in match.claim
+    assert "this does not prove it" in match.claim
+
+
+def test_claims_without_certificate():
+    (match,) = identify([[1.001j]])
+    assert match.claim == "within 0.001: near; no error of the mesh is stated"
+    K = flat_torus(1j)
+    abstract = ip.period_matrix_from_weights(np.ones((K.n_faces, 3)), K.twin)
+    assert abstract.bound is None
+    (match,) = identify(abstract)
+    assert "near; no error of the mesh is stated" in match.claim
+    (match,) = identify([[1.001j]], tolerance=0.01)
+    assert match.claim == (
+        "within 0.001: consistent with the stated error of the mesh (0.01); this does not prove it"
+    )
+
+
+def test_genus_zero_and_high_genus():
+    assert len(identify(np.zeros((0, 0)))) == 0
+    result = identify(random_point(28, np.random.default_rng(0)))
+    assert len(result) == 0
+    assert "Lawson xi_{28,1}" in result.undecided
+    assert str(result).startswith("y^2 = x^57 - 1: undecided, the search was given up\n")
+
+
+@pytest.mark.parametrize(
+    ("tolerance", "message"),
+    [(-1.0, "must not be negative"), (math.nan, "must not be negative"), (1.0, "too large")],
+)
+def test_tolerances_that_make_no_sense(tolerance, message):
+    with pytest.raises(ValueError, match=message):
+        identify([[1j]], tolerance)
+
+
+def test_certificate_too_weak():
+    with pytest.raises(ValueError, match="too large to separate anything"):
+        identify(ip.period_matrix(square_tiled_surface("omega_1", 1)))
+
+
+def test_matrices_that_are_no_siegel_points():
+    with pytest.raises(NotASiegelPointError, match="not symmetric"):
+        identify([[1j, 0.5], [0.4, 1j]])
