@@ -10,12 +10,14 @@ import json
 import logging
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 
+from .delta_complex import DeltaComplex
 from .identification import identify
 from .mesh import MeshReport, load_mesh
 from .periods import PeriodMatrix, siegel_reduced
-from .pipeline import period_matrix
-from .serialization import result_to_json
+from .pipeline import as_complex, period_matrix
+from .serialization import read_gluing, result_to_json
 from .stages import logger, stage
 from .summary import summary
 
@@ -65,7 +67,11 @@ def _parser() -> argparse.ArgumentParser:
 
 def _add_mesh_arguments(command: argparse.ArgumentParser) -> None:
     """What every command needs to get from a mesh file to a period matrix."""
-    command.add_argument("mesh", metavar="MESH", help="a mesh file (OBJ, OFF, PLY, STL, …)")
+    command.add_argument(
+        "mesh",
+        metavar="MESH",
+        help="a mesh (OBJ, OFF, PLY, STL, …), or a gluing of triangles (.json)",
+    )
     command.add_argument(
         "--weights",
         choices=("intrinsic", "extrinsic"),
@@ -86,23 +92,32 @@ def _add_mesh_arguments(command: argparse.ArgumentParser) -> None:
     command.add_argument("--quiet", action="store_true", help="no stage names on the terminal")
 
 
-def _period_matrix(options: argparse.Namespace) -> tuple[PeriodMatrix, MeshReport]:
-    with stage("reading the mesh"):
+def _read(options: argparse.Namespace) -> tuple[DeltaComplex, MeshReport | None]:
+    """The surface in a file, and the report of a mesh; a gluing (.json) has none."""
+    with stage("reading the file"):
+        if Path(options.mesh).suffix.lower() == ".json":
+            return read_gluing(options.mesh), None
         V, F, report = load_mesh(options.mesh, repair=options.repair)
-    return period_matrix(V, F, weights=options.weights, delaunay=options.delaunay), report
+    return as_complex(V, F), report
+
+
+def _period_matrix(options: argparse.Namespace) -> tuple[PeriodMatrix, str, MeshReport | None]:
+    """The period matrix, with the surface in words and the report of a mesh."""
+    K, report = _read(options)
+    words = str(report) if report else f"{options.mesh}: {K.n_faces} triangles, glued as told"
+    return period_matrix(K, weights=options.weights, delaunay=options.delaunay), words, report
 
 
 def _identify(options: argparse.Namespace) -> int:
-    pm, report = _period_matrix(options)
+    pm, words, _ = _period_matrix(options)
     with stage("comparing"):
         found = identify(pm, tolerance=options.tolerance)
-    print(f"{report}\n")
-    print(found)
+    print(f"{words}\n\n{found}")
     return 0
 
 
 def _compute(options: argparse.Namespace) -> int:
-    pm, report = _period_matrix(options)
+    pm, words, report = _period_matrix(options)
     with stage("Siegel reduction"):
         reduced, gamma = siegel_reduced(pm)
     if options.json:
@@ -110,12 +125,11 @@ def _compute(options: argparse.Namespace) -> int:
         document = {
             **result_to_json(pm, reduced, gamma),
             "options": chosen,
-            "mesh": report.as_dict(),
+            "mesh": report.as_dict() if report else None,
         }
         print(json.dumps(document, indent=1))
     else:
-        print(f"{report}\n")
-        print(summary(pm, reduced, gamma))
+        print(f"{words}\n\n{summary(pm, reduced, gamma)}")
     return 0
 
 

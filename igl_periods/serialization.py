@@ -1,4 +1,4 @@
-"""Period matrices as JSON.
+"""Period matrices and gluings as JSON.
 
 A complex matrix is ``{"real": [[…]], "imag": [[…]]}``.  Every document has a ``schema`` number,
 which grows when a reader of the old form would misread the new one.
@@ -6,17 +6,47 @@ which grows when a reader of the old form would misread the new one.
 
 from __future__ import annotations
 
+import json
 from importlib.metadata import version
+from os import PathLike
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .delta_complex import DeltaComplex
+from .errors import MeshError
 from .homology import homology_basis
 from .periods import PeriodMatrix
 
 SCHEMA = 1
+
+
+def read_gluing(path: str | PathLike[str]) -> DeltaComplex:
+    """Read triangles glued along their sides from a JSON file.
+
+    The file holds an object with the keys ``lengths`` and ``twin``, lists of three numbers per
+    triangle as in :meth:`DeltaComplex.from_gluing`.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such file.
+    MeshError
+        If it is no such object.
+    ComplexError
+        If the gluing is none.
+    """
+    try:
+        document = json.loads(Path(path).read_text(encoding="utf-8"))
+        lengths, twin = np.array(document["lengths"]), np.array(document["twin"])
+    except (json.JSONDecodeError, UnicodeDecodeError, KeyError, TypeError, ValueError) as error:
+        raise MeshError(
+            f'the file holds no gluing: {{"lengths": [[…]], "twin": [[…]]}} with three numbers for '
+            f"each triangle is expected ({error})."
+        ) from error
+    return DeltaComplex.from_gluing(lengths, twin)
 
 
 def matrix_to_json(matrix: NDArray[Any]) -> Any:

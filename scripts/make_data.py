@@ -17,6 +17,8 @@ import numpy as np
 from igl_periods.surfaces import (
     cyclic_cover,
     lawson_surface,
+    regular_map_period_matrix,
+    regular_map_surface,
     square_tiled_period_matrix,
     square_tiled_surface,
     stereographic,
@@ -72,7 +74,7 @@ def main():
 
 def files():
     """Names and contents of all files."""
-    surfaces = [lawson(), wente(), hyperelliptic(), *map(square_tiled, SQUARES)]
+    surfaces = [lawson(), wente(), quintic(), sextic(), klein(), *map(square_tiled, SQUARES)]
     contents = {name: content for name, content, *_ in surfaces}
     table = [
         f"| `{name}` | {vertices}, {triangles} | {genus} |"
@@ -108,19 +110,41 @@ def wente():
     return "wente_20x20.obj", obj(V, F), len(V), len(F), 1, text
 
 
-def hyperelliptic():
-    K = cyclic_cover(2, np.exp(2j * np.pi * np.arange(5) / 5), size=0.25, graded=True)
+def quintic():
     c, s, t = np.cos(2 * np.pi / 5), np.sin(2 * np.pi / 5), np.sin(np.pi / 5)
     Pi = np.array([[2j * t, c - 0.5 - 1j * t], [c - 0.5 - 1j * t, -c + 1j * s]])
     formula = (
         "[[2i t, c − ½ − i t], [c − ½ − i t, −c + i s]], c = cos 72°, s = sin 72°, t = sin 36°"
     )
+    return hyperelliptic(5, "y² = x⁵ − 1", shown(Pi, formula))
+
+
+def sextic():
+    Pi = square_tiled_period_matrix("omega_3")
+    return hyperelliptic(6, "y² = x⁶ − 1", shown(Pi, "(i/√3) [[2, −1], [−1, 2]]"))
+
+
+def hyperelliptic(n, curve, matrix):
+    K = cyclic_cover(2, np.exp(2j * np.pi * np.arange(n) / n), size=0.25, graded=True)
     text = (
-        "The curve y² = x⁵ − 1: two sheets over an inscribed polyhedral sphere, with triangles "
+        f"The curve {curve}: two sheets over an inscribed polyhedral sphere, with triangles "
         "graded towards the six branch\npoints: `cyclic_cover(2, roots, size=0.25, graded=True)`."
-        "\n\n" + shown(Pi, formula)
+        f"\n\n{matrix}"
     )
-    return "hyperelliptic_x5_1.json", gluing(K), K.n_vertices, K.n_faces, 2, text
+    return f"hyperelliptic_x{n}_1.json", gluing(K), K.n_vertices, K.n_faces, 2, text
+
+
+def klein():
+    K = regular_map_surface("klein", 1)
+    text = (
+        "Klein's quartic, from 56 equilateral triangles, seven at each vertex: "
+        '`regular_map_surface("klein", 1)`.\n\n'
+        + shown(
+            regular_map_period_matrix("klein"),
+            "½ [[e, 1, 1], [1, e, 1], [1, 1, e]], e = (−1 + i√7)/2",
+        )
+    )
+    return "klein.json", gluing(K), K.n_vertices, K.n_faces, 3, text
 
 
 def square_tiled(name):

@@ -5,6 +5,7 @@ import os
 import pty
 import subprocess
 import sys
+from pathlib import Path
 
 import igl
 import numpy as np
@@ -130,5 +131,50 @@ def test_stages_are_shown_on_a_terminal_only(torus):
     os.close(terminal)
     shown = os.read(reader, 10_000).decode()
     os.close(reader)
-    for stage in ("reading the mesh", "homology", "harmonic forms", "Siegel reduction"):
+    for stage in ("reading the file", "homology", "harmonic forms", "Siegel reduction"):
         assert stage in shown
+
+
+DATA = Path(__file__).parents[1] / "data"
+
+
+@pytest.mark.parametrize(
+    ("name", "surface"),
+    [
+        ("lawson_2_1.off", "Lawson xi_{2,1}"),
+        ("omega_3.json", "Lawson xi_{2,1}"),
+        ("hyperelliptic_x6_1.json", "Lawson xi_{2,1}"),
+        ("klein.json", "Klein"),
+        ("omega_2.json", "Bolza"),
+        ("omega_1.json", "Omega_1"),
+        ("wente_20x20.obj", "Wente"),
+    ],
+)
+def test_surfaces_are_identified(capsys, name, surface):
+    assert main(["identify", str(DATA / name)]) == 0
+    first = capsys.readouterr().out.split("\n\n")[1].splitlines()[0]
+    assert surface.lower() in first.lower()
+    assert "consistent with the certificate" in first
+
+
+def test_a_generic_surface_is_none_of_the_named_ones(tmp_path, capsys):
+    path = tmp_path / "generic.obj"
+    igl.write_triangle_mesh(str(path), *noisy_torus(12, 9, 0.1, 4))
+    assert main(["identify", str(path)]) == 0
+    assert "consistent" not in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        ("[]", "holds no gluing"),
+        ('{"lengths": [[1, 1, 1]], "twin": [[0, 1]]}', "twin must have shape"),
+        ('{"lengths": [[1, 1, 1], [1]], "twin": []}', "holds no gluing"),
+        ("{", "holds no gluing"),
+    ],
+)
+def test_gluings_that_are_refused(tmp_path, capsys, content, message):
+    path = tmp_path / "gluing.json"
+    path.write_text(content)
+    assert main(["compute", str(path)]) == 1
+    assert message in capsys.readouterr().err

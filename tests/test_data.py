@@ -17,6 +17,8 @@ TOLERANCES = {
     "lawson_2_1.off": 2e-3,
     "wente_20x20.obj": 2e-3,
     "hyperelliptic_x5_1.json": 2e-2,
+    "hyperelliptic_x6_1.json": 2e-2,
+    "klein.json": 1e-8,
     "omega_1.json": 1e-8,
     "omega_2.json": 1e-8,
     "omega_3.json": 1e-8,
