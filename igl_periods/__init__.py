@@ -14,6 +14,9 @@ from .automorphisms import SymplecticGroup as SymplecticGroup
 from .automorphisms import symplectic_automorphism_group as symplectic_automorphism_group
 from .catalogue import catalogue as catalogue
 from .delta_complex import DeltaComplex as DeltaComplex
+from .double_graph import DoubleGraph as DoubleGraph
+from .double_graph import double_graph as double_graph
+from .dual_cycles import dual_homology_basis as dual_homology_basis
 from .equivalence import Isomorphisms as Isomorphisms
 from .equivalence import moduli_distance as moduli_distance
 from .equivalence import symplectic_isomorphisms as symplectic_isomorphisms
@@ -22,8 +25,14 @@ from .errors import MeshError as MeshError
 from .errors import NotASiegelPointError as NotASiegelPointError
 from .half_space import siegel_distance as siegel_distance
 from .half_space import siegel_transform as siegel_transform
+from .hodge import hodge_decomposition as hodge_decomposition
+from .holomorphic import harmonic_forms as harmonic_forms
+from .holomorphic import holomorphic_forms as holomorphic_forms
+from .holomorphic import symplectic_mean_forms as symplectic_mean_forms
 from .homology import cohomology_basis as cohomology_basis
 from .homology import homology_basis as homology_basis
+from .homotopy import fundamental_polygon as fundamental_polygon
+from .homotopy import shortest_loops as shortest_loops
 from .identification import Identification as Identification
 from .identification import identify as identify
 from .invariants import to_flint as to_flint

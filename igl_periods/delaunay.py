@@ -277,8 +277,19 @@ def _is_bad(cot_here: Floats, cot_there: Floats) -> NDArray[np.bool_]:
     """
     total = cot_here + cot_there
     bad = total < -_TOLERANCE
-    bad[bad] = total[bad] < -_TOLERANCE - _ULPS * (np.abs(cot_here[bad]) + np.abs(cot_there[bad]))
+    bad[bad] = total[bad] < -cocircularity_allowance(np.abs(cot_here[bad]) + np.abs(cot_there[bad]))
     return bad
+
+
+def cocircularity_allowance(size: Floats) -> Floats:
+    """How far cot α + cot β may be from 0 by rounding, where four vertices lie on one circle.
+
+    Parameters
+    ----------
+    size : array of float
+        The sum of the absolute values of both cotangents.
+    """
+    return _TOLERANCE + _ULPS * size
 
 
 def _foot(base: Floats, near: Floats, far: Floats) -> Floats:

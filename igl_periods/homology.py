@@ -209,8 +209,30 @@ def homology_basis(K: DeltaComplex, root: int = 0) -> list[Ints]:
     T = integer_symplectic_basis(M).astype(np.int64)
     # T M Tᵀ = J, so the dual basis is T⁻ᵀ = J T Mᵀ in terms of the loops dual to the cochains.
     coefficients = standard_form(len(T) // 2) @ T @ M.T
-    loops = [_rooted_loop(K, trees, int(h)) for h in trees.generators]
+    loops = [loop.tolist() for loop in rooted_loops(K, trees)]
     return [_combined(K, loops, row) for row in coefficients]
+
+
+def rooted_loops(K: DeltaComplex, trees: TreeCotree) -> list[Ints]:
+    """The loops from the root through each of the edges left over; 2g walks.
+
+    Each runs along the tree to its edge, over it in its direction, and back along the tree.
+    """
+    tail, head = half_edge_ends(K)
+    twin = K.twin.ravel()
+
+    def from_root(vertex: int) -> list[int]:
+        path: list[int] = []
+        while (half_edge := int(trees.vertex_parent[vertex])) >= 0:
+            path.append(half_edge)
+            vertex = int(tail[half_edge])
+        return path[::-1]
+
+    loops = []
+    for half_edge in trees.generators:
+        there, back = from_root(tail[half_edge]), from_root(head[half_edge])
+        loops.append(np.array([*there, half_edge, *twin[back[::-1]]], dtype=np.int64))
+    return loops
 
 
 def walk_cochain(K: DeltaComplex, walk: Ints) -> Ints:
@@ -256,27 +278,6 @@ def _along_sides(K: DeltaComplex, cochains: csr_array, faces: Ints) -> tuple[csr
         values.data = values.data * np.repeat(K.sign[faces, s], np.diff(values.indptr))
         along.append(values)
     return along[0], along[1]
-
-
-def _path_from_root(K: DeltaComplex, trees: TreeCotree, vertex: int) -> list[int]:
-    path = []
-    while (half_edge := int(trees.vertex_parent[vertex])) >= 0:
-        path.append(half_edge)
-        vertex = int(K.corner_vertex.flat[_after(half_edge)])
-    return path[::-1]
-
-
-def _rooted_loop(K: DeltaComplex, trees: TreeCotree, half_edge: int) -> list[int]:
-    """From the root along the tree to the half-edge, over it, and back along the tree."""
-    corner = _after(half_edge)
-    there = _path_from_root(K, trees, int(K.corner_vertex.flat[corner]))
-    back = _path_from_root(K, trees, int(K.corner_vertex.flat[_after(corner)]))
-    return [*there, half_edge, *_reversed(K, back)]
-
-
-def _after(half_edge: int) -> int:
-    """The next half-edge (or corner) of the same face."""
-    return half_edge + 1 if half_edge % 3 < 2 else half_edge - 2
 
 
 def _reversed(K: DeltaComplex, walk: list[int]) -> list[int]:

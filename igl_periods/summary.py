@@ -36,8 +36,8 @@ def summary(pm: PeriodMatrix, reduced: PeriodMatrix, gamma: NDArray[np.int64]) -
     ]
     if pm.complex.mollification:
         parts.append(
-            f"Degenerate triangles: {pm.complex.mollification:.3g} was added to the length of every "
-            "edge, and the matrix and its bound are those of that surface."
+            f"Degenerate triangles: {pm.complex.mollification:.3g} was added to the length of "
+            "every edge, and the matrix and its bound are those of that surface."
         )
     return "\n".join(parts)
 
