@@ -43,6 +43,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+import flint
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
@@ -50,6 +51,7 @@ from scipy.sparse import csr_array
 from .delta_complex import DeltaComplex
 from .errors import ComplexError
 from .half_space import check_symplectic
+from .invariants import to_flint
 from .rounding import LEAST_ALLOWANCE, algebraic_allowance, congruence
 from .siegel import siegel_reduce
 from .symplectic import (
@@ -195,6 +197,10 @@ class PeriodMatrix:
             complex=self.complex,
             rounding=self.rounding + loss,
         )
+
+    def to_flint(self) -> flint.acb_mat:
+        """``matrix`` as balls with the radii ``entry_bounds``, for python-flint."""
+        return to_flint(self)
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
         if copy:

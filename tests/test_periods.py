@@ -442,6 +442,16 @@ def test_arguments_that_are_no_surface():
         ip.period_matrix(np.concatenate([V, V]), np.concatenate([F, F + len(V)]))
 
 
+def test_balls_of_flint_contain_the_bound(computed):
+    pm = computed("eight.off")
+    for i in range(2):
+        for j in range(2):
+            ball = pm.to_flint()[i, j]
+            assert complex(ball.mid()) == pm.matrix[i, j]
+            assert float(ball.real.rad()) >= pm.entry_bounds[i, j]
+            assert float(ball.imag.rad()) >= pm.entry_bounds[i, j]
+
+
 def test_mesh_objects_are_taken():
     open3d = pytest.importorskip("open3d")
     V, F = torus_of_revolution(2.0, 0.5, 8, 6)
