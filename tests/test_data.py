@@ -67,7 +67,8 @@ def test_surfaces_are_what_the_readme_states(name):
     assert (K.n_vertices, K.n_faces, K.genus) == counts
     pm = ip.period_matrix(K)
     Pi = pm.reduced()
-    matches = isomorphisms(Pi.matrix, exact, 0.05, size=4)
+    # All entries up to 4 for the markings of genus 2; in genus 3 that many cannot be tried.
+    matches = isomorphisms(Pi.matrix, exact, 0.05, size=4 if K.genus < 3 else 2, limit=50)
     nearest = min(np.abs(Pi.change_basis(g).matrix - exact).max() for g in matches)
     assert nearest < TOLERANCES[name]
 
