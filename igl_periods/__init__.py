@@ -10,6 +10,7 @@
 
 from importlib.metadata import version as _version
 
+from .adaptive import ToleranceWarning as ToleranceWarning
 from .automorphisms import SymplecticGroup as SymplecticGroup
 from .automorphisms import symplectic_automorphism_group as symplectic_automorphism_group
 from .catalogue import catalogue as catalogue
@@ -41,6 +42,8 @@ from .mesh import load_mesh as load_mesh
 from .periods import PeriodMatrix as PeriodMatrix
 from .pipeline import period_matrix as period_matrix
 from .pipeline import period_matrix_from_weights as period_matrix_from_weights
+from .richardson import Extrapolation as Extrapolation
+from .richardson import richardson as richardson
 from .siegel import SiegelReduction as SiegelReduction
 from .siegel import siegel_reduce as siegel_reduce
 

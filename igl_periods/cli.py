@@ -6,11 +6,15 @@ Exit codes: 0 the matrix was computed, 1 the mesh was refused, 2 wrong usage.
 from __future__ import annotations
 
 import argparse
+import importlib.metadata
 import json
 import logging
+import os
 import sys
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from .delta_complex import DeltaComplex
 from .identification import identify
@@ -28,19 +32,30 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if sys.stderr.isatty() and not options.quiet:
         _show_stages()
     try:
-        return int(options.run(options))
-    except FileNotFoundError as error:
+        with warnings.catch_warnings(record=True) as caught:
+            code = int(options.run(options))
+        for warning in caught:
+            print(f"igl-periods: warning: {warning.message}", file=sys.stderr)
+        return code
+    except BrokenPipeError:
+        # Whoever reads the output has had enough, as ``head`` does.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except OSError as error:
         return _refused(str(error))
     except ValueError as error:
-        return _refused(f"{options.mesh}: {error}")
+        message = str(error)
+        return _refused(message if options.mesh in message else f"{options.mesh}: {message}")
 
 
 def _parser() -> argparse.ArgumentParser:
+    version = importlib.metadata.version("igl_periods")
     parser = argparse.ArgumentParser(
         prog="igl-periods",
         description="Period matrices of triangle meshes, with certified error bounds.",
         epilog="Exit codes: 0 done, 1 the mesh was refused, 2 wrong usage.",
     )
+    parser.add_argument("--version", action="version", version=f"igl-periods {version}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     compute = commands.add_parser(
         "compute",
@@ -57,8 +72,9 @@ def _parser() -> argparse.ArgumentParser:
     )
     _add_mesh_arguments(recognise)
     recognise.add_argument(
-        "--tolerance",
+        "--mesh-error",
         type=float,
+        metavar="D",
         help="how far the mesh may be from the surface that it samples (a Siegel distance)",
     )
     recognise.set_defaults(run=_identify)
@@ -85,6 +101,15 @@ def _add_mesh_arguments(command: argparse.ArgumentParser) -> None:
         help="keep the triangulation as it is (the bound is less sharp)",
     )
     command.add_argument(
+        "--degree", type=int, default=1, metavar="P", help="degree of the trial functions (1)"
+    )
+    command.add_argument(
+        "--tolerance",
+        type=float,
+        metavar="R",
+        help="raise the degree until the certified bound is at most R",
+    )
+    command.add_argument(
         "--repair",
         action="store_true",
         help="weld, drop, orient and split what keeps the mesh from being a surface",
@@ -105,13 +130,19 @@ def _period_matrix(options: argparse.Namespace) -> tuple[PeriodMatrix, str, Mesh
     """The period matrix, with the surface in words and the report of a mesh."""
     K, report = _read(options)
     words = str(report) if report else f"{options.mesh}: {K.n_faces} triangles, glued as told"
-    return period_matrix(K, weights=options.weights, delaunay=options.delaunay), words, report
+    pm = period_matrix(K, **_chosen(options))
+    return pm, words, report
+
+
+def _chosen(options: argparse.Namespace) -> dict[str, Any]:
+    """The options of :func:`period_matrix`."""
+    return {name: getattr(options, name) for name in ("weights", "delaunay", "degree", "tolerance")}
 
 
 def _identify(options: argparse.Namespace) -> int:
     pm, words, _ = _period_matrix(options)
     with stage("comparing"):
-        found = identify(pm, tolerance=options.tolerance)
+        found = identify(pm, tolerance=options.mesh_error)
     print(f"{words}\n\n{found}")
     return 0
 
@@ -121,10 +152,9 @@ def _compute(options: argparse.Namespace) -> int:
     with stage("Siegel reduction"):
         reduced, gamma = siegel_reduced(pm)
     if options.json:
-        chosen = {name: getattr(options, name) for name in ("weights", "delaunay", "repair")}
         document = {
             **result_to_json(pm, reduced, gamma),
-            "options": chosen,
+            "options": {**_chosen(options), "repair": options.repair},
             "mesh": report.as_dict() if report else None,
         }
         print(json.dumps(document, indent=1))
@@ -151,7 +181,7 @@ class _StageFormatter(logging.Formatter):
     def format(self, record: logging.LogRecord) -> str:
         name, seconds = getattr(record, "stage", None), getattr(record, "seconds", None)
         if name is None:
-            return f"{record.getMessage()}\n"
+            return f"\r  {record.getMessage()}\n"
         return f"\r  {name} …" if seconds is None else f"\r  {name:<20} {seconds:8.2f} s\n"
 
 

@@ -32,15 +32,16 @@ from scipy.sparse import csr_array, vstack
 from .delta_complex import DeltaComplex
 from .errors import ComplexError
 from .gluing import next_corner
-from .triangles import cotangents, double_areas, is_strict
+from .triangles import cotangents, double_areas, is_strict, length_sensitivity
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 # Edges this close to cocircular are left alone: flipped by rounding, they would flip for ever.
 _TOLERANCE = 1e-12
-_ULPS = 8 * np.finfo(np.float64).eps
-_MOST_ROUNDS = 100_000
+_EPS = float(np.finfo(np.float64).eps)
+_ULPS = 8 * _EPS
+_MOST_ROUNDS = 100_000  # and as many as there are edges
 _COCHAINS_AT_ONCE = 32
 
 
@@ -96,9 +97,9 @@ def delaunay_flips(K: DeltaComplex) -> tuple[DeltaComplex, list[Flips]]:
     order = np.random.default_rng(0)
     rounds: list[Flips] = []
     while suspects.size:
-        if len(rounds) == _MOST_ROUNDS:
+        if len(rounds) == _MOST_ROUNDS + K.n_edges:
             raise ComplexError(
-                f"Delaunay flips did not end in {_MOST_ROUNDS} rounds: rounding decides about "
+                f"Delaunay flips did not end in {len(rounds)} rounds: rounding decides about "
                 "extreme triangles. Remesh them, or compute without flips (delaunay=False)."
             )
         chosen, waiting = mesh.independent(order.permutation(suspects))
@@ -112,6 +113,7 @@ def delaunay_flips(K: DeltaComplex) -> tuple[DeltaComplex, list[Flips]]:
         edge=mesh.edge.reshape(-1, 3),
         sign=mesh.sign.reshape(-1, 3),
         corner_vertex=mesh.corner_vertex.reshape(-1, 3),
+        distortion=mesh.distortion,
     )
     return flipped, rounds
 
@@ -144,6 +146,7 @@ class _FlippableMesh:
     corner_vertex: Ints
     cotangents: Floats
     half_edge: Ints  # of each edge, the half-edge that runs with it
+    distortion: Floats  # of each face, in units of the machine epsilon
     slot: Ints  # scratch: where a half-edge moves to; the identity between rounds
     owner: Ints  # scratch: which edge claims a face
 
@@ -160,6 +163,7 @@ class _FlippableMesh:
             corner_vertex=K.corner_vertex.flatten(),
             cotangents=cot.ravel(),
             half_edge=half_edge,
+            distortion=np.zeros(K.n_faces) if K.distortion is None else K.distortion.copy(),
             slot=np.arange(K.twin.size),
             owner=np.empty(K.n_faces, dtype=np.int64),
         )
@@ -167,7 +171,14 @@ class _FlippableMesh:
     def bad_edges(self, edges: Ints) -> Ints:
         """Those of the edges that are not Delaunay."""
         h = self.half_edge[edges]
-        return edges[_is_bad(self.cotangents[h], self.cotangents[self.twin[h]])]
+        t = self.twin[h]
+        cot_here, cot_there = self.cotangents[h], self.cotangents[t]
+        bad = _is_bad(cot_here, cot_there)
+        # Angles that earlier flips have blurred decide nothing; or flips might never end.
+        blur_here = self.distortion[h[bad] // 3] * (1.0 + np.abs(cot_here[bad]))
+        blur_there = self.distortion[t[bad] // 3] * (1.0 + np.abs(cot_there[bad]))
+        bad[bad] = cot_here[bad] + cot_there[bad] < -_EPS * (blur_here + blur_there)
+        return edges[bad]
 
     def independent(self, edges: Ints) -> tuple[Ints, Ints]:
         """Split edges into some that share no face, and the rest."""
@@ -191,7 +202,7 @@ class _FlippableMesh:
                  \   /                    \ | /
                    q                        q
         """
-        edges, h, diagonal = self._flippable(edges)
+        edges, h, diagonal, ulps = self._flippable(edges)
         t = self.twin[h]
         bp, pa, aq, qb = next_corner(h, 1), next_corner(h, 2), next_corner(t, 1), next_corner(t, 2)
         here, there = 3 * (h // 3), 3 * (t // 3)
@@ -208,27 +219,40 @@ class _FlippableMesh:
             self.corner_vertex[there + corner] = vertex
         faces = np.concatenate([here, there])[:, None] + np.arange(3)
         self.cotangents[faces] = cotangents(self.lengths[faces])
+        self._distort(here // 3, there // 3, ulps)
         return flips, self.edge[new]
 
-    def _flippable(self, edges: Ints) -> tuple[Ints, Ints, Floats]:
-        """The edges, their half-edges and new diagonals, where both new triangles are strict.
+    def _distort(self, here: Ints, there: Ints, ulps: Floats) -> None:
+        """Both new faces inherit what was wrong with the old ones, and the rounded diagonal."""
+        before = np.maximum(self.distortion[here], self.distortion[there])
+        for faces in (here, there):
+            lengths = self.lengths.reshape(-1, 3)[faces]
+            self.distortion[faces] = before + ulps * length_sensitivity(lengths)
 
-        Rounding can make a new triangle of a needle degenerate; such an edge stays as it is.
+    def _flippable(self, edges: Ints) -> tuple[Ints, Ints, Floats, Floats]:
+        """The edges that get better, their half-edges, new diagonals, and the rounding of those.
+
+        Rounding can make a new triangle degenerate, or no better than the old one; then the edge
+        stays as it is.
         """
         h = self.half_edge[edges]
         t = self.twin[h]
-        diagonal = self._diagonal(h, t)
-        strict = np.ones(edges.size, dtype=bool)
+        diagonal, ulps = self._diagonal(h, t)
+        good = np.ones(edges.size, dtype=bool)
+        after = np.zeros(edges.size)
         for one, other in (
             (next_corner(h, 2), next_corner(t, 1)),
             (next_corner(h, 1), next_corner(t, 2)),
         ):
-            triangle = np.stack([self.lengths[one], self.lengths[other], diagonal], axis=1)
-            strict &= is_strict(triangle)
-        return edges[strict], h[strict], diagonal[strict]
+            triangle = np.stack([diagonal, self.lengths[one], self.lengths[other]], axis=1)
+            good &= is_strict(triangle)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                after += cotangents(triangle)[:, 0]
+        good &= after > self.cotangents[h] + self.cotangents[t]
+        return edges[good], h[good], diagonal[good], ulps[good]
 
-    def _diagonal(self, h: Ints, t: Ints) -> Floats:
-        """Distance of p and q when the two faces are unfolded into the plane."""
+    def _diagonal(self, h: Ints, t: Ints) -> tuple[Floats, Floats]:
+        """Distance of p and q in the plane of both faces, and its error in ulps, about."""
         base = self.lengths[h]
         pa, pb = self.lengths[next_corner(h, 2)], self.lengths[next_corner(h, 1)]
         qa, qb = self.lengths[next_corner(t, 1)], self.lengths[next_corner(t, 2)]
@@ -239,8 +263,11 @@ class _FlippableMesh:
         # p and q lie close to it.
         from_a = _foot(base, pa, pb) - _foot(base, qa, qb)
         from_b = _foot(base, qb, qa) - _foot(base, pb, pa)
-        along = np.where(pa + qa < pb + qb, from_a, from_b)
-        return np.hypot(along, height)
+        near_a = pa + qa < pb + qb
+        along = np.where(near_a, from_a, from_b)
+        diagonal = np.hypot(along, height)
+        # The feet are as long as the nearer sides at most, and their difference can cancel.
+        return diagonal, 1.0 + np.where(near_a, pa + qa, pb + qb) / diagonal
 
     def _move(self, old: Ints, new: Ints) -> None:
         """Move half-edges to new places, with all that belongs to them."""

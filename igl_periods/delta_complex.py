@@ -51,6 +51,8 @@ from .gluing import (
 from .triangles import angles, cotangents, mollify
 from .validation import (
     check_equal_when_glued,
+    check_finite,
+    check_scale,
     checked_faces,
     checked_lengths,
     checked_positions,
@@ -60,7 +62,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class DeltaComplex:
     """Euclidean triangles glued along their sides.
 
@@ -90,6 +92,9 @@ class DeltaComplex:
         Coordinates of the vertices, where the complex comes from a mesh.
     mollification : float
         Length that was added to every side to make all triangle inequalities strict.
+    distortion : (m,) float or None
+        How much rounding may have changed the metric of each face since the complex was given,
+        relative to it and in units of the machine epsilon; None where nothing was changed.
     """
 
     lengths: Floats
@@ -102,6 +107,16 @@ class DeltaComplex:
     labels: Ints
     positions: Floats | None = None
     mollification: float = 0.0
+    distortion: Floats | None = None
+
+    def __post_init__(self) -> None:
+        for array in (self.lengths, self.twin, self.edge, self.sign, self.corner_vertex):
+            array.flags.writeable = False
+
+    def __repr__(self) -> str:
+        return (
+            f"DeltaComplex({self.n_vertices} vertices, {self.n_edges} edges, {self.n_faces} faces)"
+        )
 
     @classmethod
     def from_mesh(cls, V: ArrayLike, F: ArrayLike) -> DeltaComplex:
@@ -126,12 +141,8 @@ class DeltaComplex:
         """
         positions = checked_positions(V)
         faces = checked_faces(F, len(positions))
+        check_finite(positions, faces)
         lengths = igl.edge_lengths(positions, faces)
-        if not np.isfinite(lengths).all():
-            raise MeshError(
-                f"edge lengths overflow: coordinates reach {np.abs(positions).max():.3g}. "
-                "Rescale the mesh; the period matrix does not depend on scale."
-            )
         return _from_simplicial(lengths, faces, positions)
 
     @classmethod
@@ -367,6 +378,7 @@ def _assemble(
         corner_vertex, n_vertices = corner_vertices(twin, same)
     else:
         n_vertices = int(corner_vertex.max()) + 1
+    check_scale(lengths)
     lengths, delta = mollify(_glued_lengths(lengths, twin))
     return DeltaComplex(
         lengths=lengths,
@@ -382,8 +394,8 @@ def _assemble(
 
 
 def _from_simplicial(lengths: Floats, faces: Ints, positions: Floats | None) -> DeltaComplex:
-    twin, same = twins_of_faces(faces)
     labels, corner_vertex = _compressed(faces)
+    twin, same = twins_of_faces(corner_vertex, labels)
     _check_fans(twin, same, corner_vertex, labels)
     K = _assemble(lengths, twin, same, corner_vertex)
     return replace(K, labels=labels, positions=None if positions is None else positions[labels])
@@ -401,11 +413,15 @@ def _restricted(K: DeltaComplex, chosen: NDArray[np.bool_]) -> DeltaComplex:
         labels=K.labels[vertices],
         positions=None if K.positions is None else K.positions[vertices],
         mollification=K.mollification,
+        distortion=None if K.distortion is None else K.distortion[chosen],
     )
 
 
 def _compressed(indices: Ints) -> tuple[Ints, Ints]:
     """The sorted indices that occur, and the array renumbered by them."""
+    if indices.max() > 4 * indices.size:
+        present, compact = np.unique(indices, return_inverse=True)
+        return present, compact.reshape(indices.shape)
     used = np.zeros(int(indices.max()) + 1, dtype=bool)
     used[indices] = True
     present = np.flatnonzero(used)

@@ -10,6 +10,7 @@ Side ``s`` runs from corner ``s + 1`` to corner ``s + 2`` (mod 3).
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Iterable, Sequence
 
 import numpy as np
@@ -24,8 +25,15 @@ Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 
 
-def twins_of_faces(faces: Ints) -> tuple[Ints, Bools]:
+def twins_of_faces(faces: Ints, labels: Ints) -> tuple[Ints, Bools]:
     """Glue the faces of a simplicial complex where they share two corners.
+
+    Parameters
+    ----------
+    faces : (m, 3) int
+        Corners, numbered without gaps.
+    labels : (n,) int
+        What the corners are called in messages.
 
     Returns
     -------
@@ -42,7 +50,7 @@ def twins_of_faces(faces: Ints) -> tuple[Ints, Bools]:
     key = key[order]
     paired = key[1:] == key[:-1]
     if np.any(paired[1:] & paired[:-1]):
-        _raise_crowded_edge(key, order, tail, head)
+        _raise_crowded_edge(key, order, labels[tail], labels[head])
     one, other = order[:-1][paired], order[1:][paired]
     twin = np.full(tail.size, -1, dtype=np.int64)
     twin[one], twin[other] = other, one
@@ -188,8 +196,7 @@ def squares(gluing: Iterable[Sequence[Sequence[int]]], n: int) -> tuple[Floats, 
     ComplexError
         If ``n < 1``, or a side does not exist, is glued twice, to itself, or not at all.
     """
-    if n != int(n) or n < 1:
-        raise ComplexError(f"n = {n}: each square is divided into n x n squares, n >= 1.")
+    n = _checked_subdivision(n)
     side_twin = _glued_sides(gluing)
     n_squares = len(side_twin) // 4
     # Cell (k, i, j): column i, row j of square k.  Its diagonal runs from bottom left to top
@@ -213,13 +220,26 @@ def squares(gluing: Iterable[Sequence[Sequence[int]]], n: int) -> tuple[Floats, 
     return lengths / n, twin.reshape(-1, 3)
 
 
+def _checked_subdivision(n: int) -> int:
+    try:
+        number = operator.index(n)
+    except TypeError:
+        number = 0
+    if number < 1:
+        raise ComplexError(f"n = {n!r}: each square is divided into n x n squares, n >= 1.")
+    return number
+
+
 def _glue(twin: Ints, one: Ints, other: Ints) -> None:
     twin[one], twin[other] = other, one
 
 
 def _glued_sides(gluing: Iterable[Sequence[Sequence[int]]]) -> Ints:
     """The involution of the sides ``4 square + side``."""
-    pairs = np.asarray([np.asarray(pair) for pair in gluing])
+    try:
+        pairs = np.asarray([np.asarray(pair) for pair in gluing])
+    except ValueError:
+        pairs = np.zeros(0)
     if pairs.ndim != 3 or pairs.shape[1:] != (2, 2) or not np.issubdtype(pairs.dtype, np.integer):
         raise ComplexError(
             "a gluing of squares is a list of pairs ((square, side), (square, side))."
@@ -228,6 +248,11 @@ def _glued_sides(gluing: Iterable[Sequence[Sequence[int]]]) -> Ints:
     if square.min() < 0 or side.min() < 0 or side.max() > 3:
         raise ComplexError(
             "squares are numbered from 0, and sides are 0 bottom, 1 right, 2 top, 3 left."
+        )
+    if square.max() >= 2 * square.size:
+        raise ComplexError(
+            f"square {square.max()} is named, but {square.size} glued sides are those of "
+            f"{square.size // 4} squares."
         )
     sides = 4 * square + side
     count = np.bincount(sides.ravel(), minlength=4 * (int(square.max()) + 1))

@@ -70,6 +70,8 @@ def tree_cotree(K: DeltaComplex, root: int = 0) -> TreeCotree:
     root : int
         Vertex at which the tree starts.
     """
+    if not 0 <= root < K.n_vertices:
+        raise ValueError(f"root = {root} is no vertex: there are {K.n_vertices}, counted from 0.")
     tail, head = half_edge_ends(K)
     m = 3 * K.n_faces
     graph = csr_array((np.ones(m, dtype=np.int8), (tail, head)), shape=(K.n_vertices,) * 2)

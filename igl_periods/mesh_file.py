@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 
 from .errors import MeshError
 from .ply import read_ply
-from .validation import checked_positions
+from .validation import check_finite, checked_positions
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -122,7 +122,7 @@ def _check(mesh: MeshFile) -> None:
             f"faces refer to vertices {mesh.F.min()} to {mesh.F.max()} (counted from 0), and there "
             f"are {len(mesh.V)}: the file is truncated or corrupt."
         )
-    checked_positions(mesh.V)
+    check_finite(checked_positions(mesh.V), mesh.F)
 
 
 def _checked_degrees(degrees: Ints) -> Ints:

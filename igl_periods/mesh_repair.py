@@ -32,7 +32,7 @@ from .gluing import components_of, corner_vertices, next_corner
 from .mesh_facts import collapsed, glued_in_pairs, orientable_faces, repeats
 from .mesh_file import compressed, first_equal_row
 from .mesh_report import RepairStep
-from .validation import checked_positions
+from .validation import check_finite, checked_positions
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -63,6 +63,7 @@ def repair_mesh(
         If the coordinates are not finite, or no triangle is left.
     """
     V, F = checked_positions(V), np.asarray(F, dtype=np.int64)
+    check_finite(V, F)
     steps = []
     F, repeated = _drop(F, _repeated(V, F))
     F, welded = _stitch(V, F)

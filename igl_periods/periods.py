@@ -65,6 +65,8 @@ Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 
 _MOST_REDUCTIONS = 8
+_ASYMMETRY = 1e-8
+_LARGEST_LOSS = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,12 +97,19 @@ class PeriodMatrix:
 
     def __post_init__(self) -> None:
         D = np.array(self.dirichlet, dtype=np.float64)
+        edges = (D.shape[0], self.complex.n_edges)
         if D.ndim != 2 or D.shape[0] != D.shape[1] or D.shape[0] % 2:
             raise ComplexError(f"a Dirichlet matrix has shape (2g, 2g), not {D.shape}.")
         if not np.isfinite(D).all():
             raise ComplexError("the Dirichlet matrix has entries that are not finite.")
+        if np.abs(D - D.T).max(initial=0.0) > _ASYMMETRY * np.abs(D).max(initial=0.0):
+            raise ComplexError("a Dirichlet matrix is symmetric; this one is not.")
+        if self.cocycles.shape != edges:
+            raise ComplexError(f"the cocycles have shape {self.cocycles.shape}, not {edges}.")
+        D = 0.5 * (D + D.T)
         cholesky_factor(D)
-        object.__setattr__(self, "dirichlet", _read_only(0.5 * (D + D.T)))
+        object.__setattr__(self, "dirichlet", _read_only(D))
+        _read_only(self.cocycles.data)
 
     @property
     def genus(self) -> int:
@@ -187,9 +196,20 @@ class PeriodMatrix:
         ------
         ValueError
             If gamma is no integer symplectic matrix of this size.
+        ComplexError
+            If it is so large that no digits of the energies would be left.
         """
         U = form_action(check_symplectic(gamma, self.genus))
-        D, loss = congruence(U, self.dirichlet)
+        try:
+            D, loss = congruence(U, self.dirichlet)
+        except ComplexError:
+            loss = np.inf
+        if loss > _LARGEST_LOSS:
+            raise ComplexError(
+                f"gamma, with entries up to {np.abs(U).max()}, leads to a marking that is too "
+                "extreme for double precision: no digits of the energies would be left. "
+                "siegel_transform(gamma, pm) gives the matrix alone, without a bound."
+            )
         return PeriodMatrix(
             dirichlet=D,
             certified=self.certified,
@@ -201,6 +221,11 @@ class PeriodMatrix:
     def to_flint(self) -> flint.acb_mat:
         """``matrix`` as balls with the radii ``entry_bounds``, for python-flint."""
         return to_flint(self)
+
+    def __reduce__(self) -> tuple[type[PeriodMatrix], tuple[Any, ...]]:
+        # Pickled without what is derived, and read-only again afterwards.
+        fields = (self.dirichlet, self.certified, self.cocycles, self.complex, self.rounding)
+        return PeriodMatrix, fields
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
         if copy:

@@ -10,16 +10,20 @@ compared entry by entry.
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
+from . import high_order
+from .adaptive import Triangulation, period_matrix_within
 from .delaunay import intrinsic_delaunay
 from .delta_complex import DeltaComplex, cotan_weights, extrinsic_weights
 from .errors import ComplexError, MeshError
 from .harmonic import dirichlet_matrix, harmonic_potentials, weighted_energies
+from .high_order import high_order_forms
 from .homology import cochains_and_basis
 from .periods import PeriodMatrix
 from .rounding import LEAST_ALLOWANCE, congruence, geometric_allowance
@@ -35,6 +39,9 @@ def period_matrix(
     *,
     weights: str = "intrinsic",
     delaunay: bool = True,
+    degree: int = 1,
+    tolerance: float | None = None,
+    max_unknowns: int | None = None,
 ) -> PeriodMatrix:
     """Compute the period matrix of a closed, oriented, connected polyhedral surface.
 
@@ -51,6 +58,14 @@ def period_matrix(
     delaunay : bool
         Make the triangulation intrinsically Delaunay first.  The surface stays the same; the
         bound gets sharper.
+    degree : int
+        Degree of the trial functions.  1 is the theory of the paper; from 2 on the functions are
+        polynomials of this degree on flat faces, and powers of the distance at cone points, and
+        the bound falls exponentially with the degree.
+    tolerance : float, optional
+        Raise the degree, and divide faces where that is cheaper, until ``bound`` is at most this.
+    max_unknowns : int, optional
+        With ``tolerance``: solve no system with more unknowns, nor one that exceeds the memory.
 
     Returns
     -------
@@ -64,21 +79,38 @@ def period_matrix(
     ComplexError
         If the surface is not closed, oriented and connected, its triangles are too degenerate, or
         the weights define no positive definite energy.
+    ValueError
+        If an option has no such value, or options contradict each other: extrinsic weights have
+        degree 1 and no bound, and a tolerance chooses the degree.
+
+    Warns
+    -----
+    ToleranceWarning
+        If the tolerance is not met.  The result is the best one, with its bound.
 
     Examples
     --------
     >>> from igl_periods import DeltaComplex, period_matrix
     >>> torus = DeltaComplex.from_squares([((0, 0), (0, 2)), ((0, 1), (0, 3))])
     >>> pm = period_matrix(torus)
-    >>> pm.genus, abs(pm.reduced().matrix[0, 0] - 1j) < 1e-12, pm.bound < 1e-12
-    (1, np.True_, True)
+    >>> pm.genus, bool(abs(pm.reduced().matrix[0, 0] - 1j) < 1e-12), pm.bound < 1e-12
+    (1, True, True)
     """
+    _check_options(weights, degree, tolerance)
     K = as_complex(surface, F)
-    if weights == "intrinsic":
-        return _certified(K, delaunay)
     if weights == "extrinsic":
         return _uncertified(K, extrinsic_weights(K))
-    raise ValueError(f'weights must be "intrinsic" or "extrinsic", not {weights!r}.')
+    with stage("homology"):
+        cochains, T = cochains_and_basis(K)
+    flipped, carried = K, cochains
+    if delaunay:
+        with stage("Delaunay flips"):
+            flipped, carried = intrinsic_delaunay(K, cochains)
+    certify = partial(_certified, K, cochains, T)
+    if tolerance is None:
+        return certify(*_energies(flipped, carried, degree))
+    where = Triangulation(flipped, carried, T.astype(np.int64))
+    return period_matrix_within(where, certify, tolerance, max_unknowns)
 
 
 def period_matrix_from_weights(rho: ArrayLike, twin: ArrayLike) -> PeriodMatrix:
@@ -126,26 +158,47 @@ def as_complex(surface: Any, F: ArrayLike | None = None) -> DeltaComplex:
         return DeltaComplex.from_mesh(surface, np.asarray(F))
 
 
-def _certified(K: DeltaComplex, delaunay: bool) -> PeriodMatrix:
-    with stage("homology"):
-        cochains, T = cochains_and_basis(K)
-    flipped, carried = K, cochains
-    if delaunay:
-        with stage("Delaunay flips"):
-            flipped, carried = intrinsic_delaunay(K, cochains)
+def _check_options(weights: str, degree: int, tolerance: float | None) -> None:
+    if weights not in ("intrinsic", "extrinsic"):
+        raise ValueError(f'weights must be "intrinsic" or "extrinsic", not {weights!r}.')
+    if degree != int(degree) or degree < 1:
+        raise ValueError(f"degree = {degree}: trial functions have degree 1 at least.")
+    if tolerance is not None and not tolerance > 0.0:
+        raise ValueError(f"tolerance = {tolerance}: a bound is always positive.")
+    if weights == "extrinsic" and (degree != 1 or tolerance is not None):
+        raise ValueError("extrinsic weights have degree 1 and no bound: leave both options away.")
+    if degree != 1 and tolerance is not None:
+        raise ValueError("a tolerance chooses the degree: leave one of the two away.")
+
+
+def _energies(K: DeltaComplex, cochains: csr_array, degree: int) -> tuple[Floats, float]:
+    """Dirichlet matrix of the forms of some degree, and what rounding can change in it."""
+    if degree > 1:
+        with stage(f"forms of degree {degree}"):
+            forms = high_order_forms(K, cochains, degree)
+        with stage("energies"):
+            D = high_order.dirichlet_matrix(forms)
+            return D, high_order.rounding_allowance(forms, D)
     with stage("harmonic forms"):
-        potentials = harmonic_potentials(flipped, cotan_weights(flipped), carried)
-    with stage("period matrix"):
-        raw = dirichlet_matrix(flipped, carried, potentials)
-        allowance = geometric_allowance(flipped, carried, potentials, raw)
-        D, loss = congruence(T, raw)
-        return PeriodMatrix(
-            dirichlet=D,
-            certified=True,
-            cocycles=_combined(T, cochains),
-            complex=K,
-            rounding=max(LEAST_ALLOWANCE, allowance + loss),
-        )
+        potentials = harmonic_potentials(K, cotan_weights(K), cochains)
+    with stage("energies"):
+        energies = partial(dirichlet_matrix, K, cochains, potentials)
+        D = energies()
+        return D, geometric_allowance(K, D, energies)
+
+
+def _certified(
+    K: DeltaComplex, cochains: csr_array, T: NDArray[np.int8], raw: Floats, allowance: float
+) -> PeriodMatrix:
+    """The period matrix in the canonical basis T c, from energies in the classes c."""
+    D, loss = congruence(T, raw)
+    return PeriodMatrix(
+        dirichlet=D,
+        certified=True,
+        cocycles=_combined(T, cochains),
+        complex=K,
+        rounding=max(LEAST_ALLOWANCE, allowance + loss),
+    )
 
 
 def _uncertified(K: DeltaComplex, rho: Floats) -> PeriodMatrix:
@@ -153,7 +206,7 @@ def _uncertified(K: DeltaComplex, rho: Floats) -> PeriodMatrix:
         cochains, T = cochains_and_basis(K)
     with stage("harmonic forms"):
         potentials = harmonic_potentials(K, rho, cochains)
-    with stage("period matrix"):
+    with stage("energies"):
         D = T @ weighted_energies(K, rho, cochains, potentials) @ T.T
         return PeriodMatrix(D, certified=False, cocycles=_combined(T, cochains), complex=K)
 

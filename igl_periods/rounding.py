@@ -12,7 +12,9 @@ form on it, changes by at most a factor 1 ± εs with
 
 (write the metric as :math:`\sum_i l_i^2 B_i` with :math:`B_i(v, v) = - n_{i+1}(v)\, n_{i+2}(v) /
 4 A^2`, n_i the covector of length l_i that vanishes on side i).  s is 8 for an equilateral
-triangle, 4/θ for a needle of angle θ, and of order 1/θ² for a cap of angle π − θ.  But thin
+triangle, 4/θ for a needle of angle θ, and of order 1/θ² for a cap of angle π − θ.  A flip replaces
+two faces by two others with a rounded diagonal: what was wrong with the old ones stays in the new
+ones, and their own s is added; :attr:`DeltaComplex.distortion` keeps account of it.  But thin
 triangles carry little energy: so the sum of :math:`\epsilon s_f D_f` over the faces is compared
 with D as a matrix, instead of taking the worst s.
 
@@ -23,14 +25,14 @@ subtracts nearly parallel forms.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_array
 
 from .delta_complex import DeltaComplex
-from .harmonic import dirichlet_matrix
 from .symplectic import cholesky_factor
-from .triangles import double_areas
+from .triangles import length_sensitivity
 
 Floats = NDArray[np.float64]
 
@@ -41,27 +43,29 @@ _ERROR = 4 * float(np.finfo(np.float64).eps)
 _ORDINARY = 100.0
 
 
-def length_sensitivity(lengths: Floats) -> Floats:
-    """The relative change of metric of each triangle per relative change of its sides; (m,)."""
-    return 2.0 * lengths.prod(axis=1) * lengths.sum(axis=1) / double_areas(lengths) ** 2
+def rounding_sensitivity(K: DeltaComplex) -> Floats:
+    """Relative change of metric of each face in units of the error of one length; (m,)."""
+    sensitivity = length_sensitivity(K.lengths)
+    return sensitivity if K.distortion is None else sensitivity + K.distortion
 
 
-def geometric_allowance(
-    K: DeltaComplex, cochains: csr_array, potentials: Floats, D: Floats
-) -> float:
+def geometric_allowance(K: DeltaComplex, D: Floats, energies: Callable[[Floats], Floats]) -> float:
     """Relative error of D that rounded lengths and areas can cause.
 
     Parameters
     ----------
-    K, cochains, potentials
-        What D was computed from, with :func:`igl_periods.harmonic.dirichlet_matrix`.
+    K : DeltaComplex
+        What the forms live on.
     D : (k, k) float
+        Their Dirichlet matrix.
+    energies : callable
+        The Dirichlet matrix of the same forms with a weight for each face, (m,) → (k, k).
     """
-    sensitivity = length_sensitivity(K.lengths)
+    sensitivity = rounding_sensitivity(K)
     extreme = np.where(sensitivity > _ORDINARY, sensitivity, 0.0)
     if len(D) == 0 or not extreme.any():
         return _ERROR * _ORDINARY
-    loss = dirichlet_matrix(K, cochains, potentials, extreme)
+    loss = energies(extreme)
     inverse = np.linalg.inv(cholesky_factor(D))
     return _ERROR * (_ORDINARY + float(np.linalg.norm(inverse @ loss @ inverse.T, 2)))
 

@@ -19,6 +19,10 @@ def stage(name: str) -> Iterator[None]:
     """Log that a stage starts, and how long it took; ``record.seconds`` is None, then the time."""
     logger.info("%s …", name, extra={"stage": name, "seconds": None})
     start = time.perf_counter()
-    yield
+    try:
+        yield
+    except BaseException:
+        logger.info("%s failed", name)
+        raise
     seconds = time.perf_counter() - start
     logger.info("%s: %.2f s", name, seconds, extra={"stage": name, "seconds": seconds})

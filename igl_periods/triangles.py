@@ -68,11 +68,16 @@ def is_strict(lengths: Floats) -> NDArray[np.bool_]:
     return slacks(lengths) > _SMALLEST_SLACK * lengths.max(axis=1)
 
 
+def length_sensitivity(lengths: Floats) -> Floats:
+    """The relative change of metric of each triangle per relative change of its sides; (m,)."""
+    return 2.0 * lengths.prod(axis=1) * lengths.sum(axis=1) / double_areas(lengths) ** 2
+
+
 def mollify(lengths: Floats) -> tuple[Floats, float]:
     """Add one small length to all sides, so that every triangle inequality is strict.
 
     Nothing is added where every slack exceeds 5e-15 of the longest side of its triangle.
-    Otherwise the result has slacks of at least 1e-13 of the mean length.
+    Otherwise slacks of 1e-13 of the mean length, and of 1e-14 of the longest side, are aimed at.
 
     Returns
     -------
@@ -87,10 +92,13 @@ def mollify(lengths: Floats) -> tuple[Floats, float]:
     """
     if is_strict(lengths).all():
         return lengths, 0.0
-    slack = slacks(lengths)
-    mean = float(lengths.mean())
-    worst = int(np.argmin(slack))
-    delta = _MOLLIFIED_SLACK * mean - float(slack[worst])
+    slack, mean = slacks(lengths), float(lengths.mean())
+    wanted = np.maximum(_MOLLIFIED_SLACK * mean, 2.0 * _SMALLEST_SLACK * lengths.max(axis=1))
+    worst = int(np.argmax(wanted - slack))
+    delta = float(wanted[worst] - slack[worst])
+    # The sums are rounded, so the least that should do may have to be doubled.
+    while 0.0 < delta <= _LARGEST_MOLLIFICATION * mean and not is_strict(lengths + delta).all():
+        delta *= 2.0
     if not 0.0 < delta <= _LARGEST_MOLLIFICATION * mean:
         raise ComplexError(
             f"face {worst} is degenerate: its sides {_in_words(lengths[worst])} miss the strict "

@@ -6,6 +6,8 @@ what is wrong with it, where first, and what to do.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -15,28 +17,50 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 _GLUED_TOLERANCE = 1e-9
+_LARGEST_LENGTH = 1e60
 
 
 def checked_positions(V: ArrayLike) -> Floats:
     """Vertex positions (n, d), finite, d ≥ 2, or MeshError."""
-    array = np.asarray(V)
+    array = _array(V, "V", MeshError)
     if array.ndim != 2 or array.shape[1] < 2:
         raise MeshError(f"V must have shape (n, d) with d >= 2, not {array.shape}.")
     if array.dtype.kind not in "iuf":
         raise MeshError(f"V must hold real numbers, not {array.dtype}.")
-    positions = np.ascontiguousarray(array, dtype=np.float64)
-    finite = np.isfinite(positions).all(axis=1)
-    if not finite.all():
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def check_finite(positions: Floats, faces: Ints) -> None:
+    """Raise MeshError unless the positions of all vertices of faces are finite."""
+    if np.isfinite(positions).all():
+        return
+    wrong = np.intersect1d(np.flatnonzero(~np.isfinite(positions).all(axis=1)), faces)
+    if wrong.size:
         raise MeshError(
-            f"{np.count_nonzero(~finite)} vertices have coordinates that are NaN or infinite; the "
-            f"first is vertex {np.argmin(finite)}."
+            f"{wrong.size} vertices have coordinates that are NaN or infinite; the first is "
+            f"vertex {wrong[0]}."
         )
-    return positions
+
+
+def check_scale(lengths: Floats) -> None:
+    """Raise ComplexError unless areas can be computed from the lengths without overflow."""
+    longest = lengths.max(axis=1)
+    # Faces that are single points are degenerate, which is another error.
+    longest = longest[longest > 0.0]
+    if (
+        longest.size
+        and not 1.0 / _LARGEST_LENGTH < longest.min() <= longest.max() < _LARGEST_LENGTH
+    ):
+        raise ComplexError(
+            f"the longest sides of triangles range from {longest.min():.3g} to "
+            f"{longest.max():.3g}, outside of {1 / _LARGEST_LENGTH:g} to {_LARGEST_LENGTH:g}. "
+            "Rescale the surface; the period matrix does not depend on scale."
+        )
 
 
 def checked_faces(F: ArrayLike, n_vertices: int | None) -> Ints:
     """Faces (m, 3), m ≥ 1, of three different vertices each, in range, or MeshError."""
-    array = np.asarray(F)
+    array = _array(F, "F", MeshError)
     if array.size == 0:
         raise MeshError("the mesh is empty: it has no faces.")
     if array.ndim != 2 or array.shape[1] != 3:
@@ -45,8 +69,7 @@ def checked_faces(F: ArrayLike, n_vertices: int | None) -> Ints:
         )
     if array.dtype.kind not in "iu":
         raise MeshError(f"F must be integer (rows of V), not {array.dtype}.")
-    faces = np.ascontiguousarray(array, dtype=np.int64)
-    low, high = int(faces.min()), int(faces.max())
+    low, high = int(array.min()), int(array.max())
     if low < 0:
         raise MeshError(
             f"F has negative indices (the least is {low}); vertices are counted from 0."
@@ -56,6 +79,10 @@ def checked_faces(F: ArrayLike, n_vertices: int | None) -> Ints:
             f"F refers to vertex {high}, out of range: V has {n_vertices} rows, counted from 0. "
             "Are the faces counted from 1?"
         )
+    if high > np.iinfo(np.int64).max // 2:
+        raise MeshError(f"F refers to vertex {high}, which is no sensible index.")
+    # A copy, since the complex keeps it.
+    faces = np.array(array, dtype=np.int64, order="C")
     repeated = (faces == np.roll(faces, 1, 1)).any(axis=1)
     if repeated.any():
         f = int(np.argmax(repeated))
@@ -68,7 +95,7 @@ def checked_faces(F: ArrayLike, n_vertices: int | None) -> Ints:
 
 def checked_lengths(lengths: ArrayLike, n_faces: int) -> Floats:
     """Side lengths (n_faces, 3), positive and finite, or ComplexError."""
-    array = np.asarray(lengths)
+    array = _array(lengths, "lengths", ComplexError)
     if array.shape != (n_faces, 3):
         raise ComplexError(
             f"lengths must have shape ({n_faces}, 3), one row a face, not {array.shape}."
@@ -84,6 +111,13 @@ def checked_lengths(lengths: ArrayLike, n_faces: int) -> Floats:
             f"the first is face {f}, {checked[f].tolist()}."
         )
     return checked
+
+
+def _array(values: ArrayLike, name: str, error: type[ValueError]) -> NDArray[Any]:
+    try:
+        return np.asarray(values)
+    except ValueError as ragged:
+        raise error(f"{name} is no rectangular array: its rows have different lengths.") from ragged
 
 
 def check_equal_when_glued(values: Floats, twin: Ints, name: str) -> None:

@@ -16,6 +16,8 @@ from random_surfaces import noisy_torus, torus_of_revolution
 import igl_periods as ip
 from igl_periods.cli import main
 
+DATA = Path(__file__).parents[1] / "data"
+
 
 @pytest.fixture
 def torus(tmp_path):
@@ -54,7 +56,9 @@ def test_json_is_complete_and_consistent(torus, capsys):
         "vertices": 240, "edges": 720, "faces": 480, "genus": 1, "mollification": 0.0
     }  # fmt: skip
     assert document["mesh"]["loaded"]["triangles"] == 480
-    assert document["options"] == {"weights": "intrinsic", "delaunay": True, "repair": False}
+    assert document["options"] == {
+        "weights": "intrinsic", "delaunay": True, "degree": 1, "tolerance": None, "repair": False
+    }  # fmt: skip
     assert document["version"] == ip.__version__
 
 
@@ -86,6 +90,27 @@ def test_without_flips_the_bound_is_larger(tmp_path, capsys):
         assert main(["compute", str(path), "--json", *options]) == 0
         bounds.append(json.loads(capsys.readouterr().out)["mesh_marking"]["bound"])
     assert bounds[0] < bounds[1]
+
+
+def test_tolerance_and_degree(capsys):
+    for options in (["--tolerance", "1e-6"], ["--degree", "5"]):
+        assert main(["compute", str(DATA / "lawson_2_1.off"), "--json", *options]) == 0
+        assert json.loads(capsys.readouterr().out)["mesh_marking"]["bound"] < 1e-6
+    assert main(["compute", str(DATA / "omega_1.json"), "--tolerance", "1e-17"]) == 0
+    assert "warning: the bound is" in capsys.readouterr().err
+
+
+def test_a_reader_who_has_had_enough_is_no_error(torus):
+    command = f"{sys.executable} -m igl_periods.cli compute {torus} --json | head -c 10"
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=True)
+    assert done.stderr == ""
+
+
+def test_version(capsys):
+    with pytest.raises(SystemExit) as exit_:
+        main(["--version"])
+    assert exit_.value.code == 0
+    assert ip.__version__ in capsys.readouterr().out
 
 
 def test_a_sphere_is_no_error(tmp_path, capsys):
@@ -133,9 +158,6 @@ def test_stages_are_shown_on_a_terminal_only(torus):
     os.close(reader)
     for stage in ("reading the file", "homology", "harmonic forms", "Siegel reduction"):
         assert stage in shown
-
-
-DATA = Path(__file__).parents[1] / "data"
 
 
 @pytest.mark.parametrize(

@@ -3,9 +3,16 @@
 import igl
 import numpy as np
 import pytest
-from random_surfaces import L_SHAPE, noisy_torus, random_gluing, random_lengths
+from random_surfaces import (
+    L_SHAPE,
+    noisy_torus,
+    random_gluing,
+    random_lengths,
+    torus_of_revolution,
+)
 
 import igl_periods as ip
+from igl_periods import delaunay
 from igl_periods.delaunay import delaunay_flips, intrinsic_delaunay
 from igl_periods.delta_complex import cone_angles, cotan_weights
 from igl_periods.harmonic import laplacian
@@ -100,6 +107,20 @@ def test_a_sheared_torus_comes_back_to_its_short_edges():
     np.testing.assert_allclose(np.sort(flipped.lengths[0]), [1, 1, np.sqrt(2)], rtol=1e-10)
     pm = ip.period_matrix(K)
     assert abs(pm.reduced().matrix[0, 0] - 1j) < 1e-10
+
+
+def test_flips_end_where_rounding_decides():
+    # Nearly all angles of these triangles are decided by the last bits of their lengths.
+    V, F = torus_of_revolution(2e9, 1.0, 16, 8)
+    flipped, rounds = delaunay_flips(ip.DeltaComplex.from_mesh(V, F))
+    assert len(rounds) < 1000
+    assert np.isfinite(flipped.lengths).all()
+
+
+def test_flips_that_do_not_end_are_given_up(monkeypatch):
+    monkeypatch.setattr(delaunay, "_MOST_ROUNDS", -89)
+    with pytest.raises(ip.ComplexError, match="did not end in 1 rounds"):
+        delaunay_flips(ip.DeltaComplex.from_mesh(*noisy_torus(6, 5, 0.5, 1)))
 
 
 def test_two_runs_give_the_same_bits():

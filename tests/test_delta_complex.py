@@ -22,7 +22,7 @@ from igl_periods.delta_complex import (
     extrinsic_weights,
     is_orientable,
 )
-from igl_periods.triangles import angles, cotangents, double_areas, mollify
+from igl_periods.triangles import angles, cotangents, double_areas, is_strict, mollify
 
 TETRAHEDRON = np.array([[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]])
 POINTS = np.array([[0.0, 0, 0], [1, 0, 0], [0.3, 1, 0], [0.2, 0.4, 0.9]])
@@ -43,13 +43,13 @@ def check_invariants(K):
 
 
 @pytest.mark.parametrize(
-    ("gluing", "vertices"), [(L_SHAPE, (1, 25)), (BOLZA, (2, 30)), (HEXAGON, (4, 46))]
+    ("gluing", "vertices"), [(L_SHAPE, (1, 25)), (BOLZA, (2, 34)), (HEXAGON, (4, 52))]
 )
 def test_squares_have_genus_two(gluing, vertices):
     # V = (number of squares) n² − 2, by the Euler characteristic.
     for n, expected in zip((1, 3), vertices, strict=True):
         K = ip.DeltaComplex.from_squares(gluing, n)
-        expected = len(gluing) // 2 * n * n - 2
+        assert expected == len(gluing) // 2 * n * n - 2
         assert (K.genus, K.n_vertices) == (2, expected)
         check_invariants(K)
 
@@ -98,7 +98,7 @@ def test_lengths_are_euclidean_in_every_dimension(dimension):
 
 def test_rows_of_V_that_no_face_uses_are_no_vertices():
     V, F = torus_of_revolution(2.0, 0.5, 6, 5)
-    spread = np.insert(V, [0, 7, 30], np.nan_to_num(7.0), axis=0)
+    spread = np.insert(V, [0, 7, 30], np.nan, axis=0)
     rows = np.setdiff1d(np.arange(len(spread)), [0, 8, 32])
     K, L = ip.DeltaComplex.from_mesh(V, F), ip.DeltaComplex.from_mesh(spread, rows[F])
     assert np.array_equal(K.corner_vertex, L.corner_vertex)
@@ -179,6 +179,59 @@ def test_mollification_mends_what_rounding_broke():
     assert mollify(mended) == (pytest.approx(mended, abs=0), 0.0)
 
 
+@pytest.mark.parametrize(
+    "lengths",
+    [
+        # A long collinear face among many small ones, and one that misses strictness by little.
+        [[1024.0, 512.0, 512.0], *[[1.0, 1.0, 1.0]] * 3600],
+        [[1000.0, 500.0, 500.0 + 2e-12], *[[1.0, 1.0, 1.0]] * 5000],
+    ],
+)
+def test_mollified_triangles_are_strict(lengths):
+    mended, delta = mollify(np.array(lengths))
+    assert 0 < delta < 1e-6
+    assert is_strict(mended).all()
+    assert (double_areas(mended) > 0).all()
+
+
+def test_the_most_that_is_mollified():
+    faces = np.ones((100, 3))
+    faces[0] = 1.0, 0.4, 0.6 - 0.9e-6
+    assert mollify(faces)[1] == pytest.approx(0.9e-6, rel=1e-3)
+    faces[0, 2] = 0.6 - 1.1e-6
+    with pytest.raises(ip.ComplexError, match="face 0 is degenerate"):
+        mollify(faces)
+
+
+def test_complexes_do_not_share_memory_with_what_they_were_made_from():
+    V, F = noisy_torus(6, 5, 0.1, seed=1)
+    K = ip.DeltaComplex.from_mesh(V, F)
+    expected = ip.period_matrix(K).matrix
+    F[:] = F[:, ::-1].copy()
+    V[:] = 0.0
+    assert np.array_equal(ip.period_matrix(K).matrix, expected)
+    with pytest.raises(ValueError, match="read-only"):
+        K.lengths[0, 0] = 1.0
+    assert repr(K) == "DeltaComplex(30 vertices, 90 edges, 60 faces)"
+
+
+def test_labels_far_apart():
+    rows = np.array([0, 7, 10**12, 2**61])
+    K = ip.DeltaComplex.from_lengths(np.ones((4, 3)), rows[TETRAHEDRON])
+    assert np.array_equal(K.labels, rows)
+    assert np.array_equal(K.corner_vertex, TETRAHEDRON)
+
+
+def test_gluings_that_reverse_orientation_are_checked():
+    twin = ip.DeltaComplex.from_mesh(POINTS, TETRAHEDRON).twin
+    with pytest.raises(ip.ComplexError, match="same must"):
+        ip.DeltaComplex.from_gluing(np.ones((4, 3)), twin, np.zeros(3, dtype=bool))
+    same = np.zeros((4, 3), dtype=bool)
+    same[0, 0] = True
+    with pytest.raises(ip.ComplexError, match="same differs"):
+        ip.DeltaComplex.from_gluing(np.ones((4, 3)), twin, same)
+
+
 # What is refused
 
 
@@ -198,6 +251,9 @@ def test_coordinates_that_are_not_finite(bad):
         ([[0, 1, 1], [0, 3, 1]], r"1 faces repeat a vertex; the first is face 0"),
         (np.zeros((4, 4), int), r"shape \(m, 3\), not \(4, 4\)"),
         (TETRAHEDRON.astype(float), "must be integer"),
+        (TETRAHEDRON == 1, "must be integer, not bool|must be integer"),
+        (TETRAHEDRON.astype(np.uint64) + np.uint64(2**64 - 4), "out of range|no sensible index"),
+        ([[0, 1, 2], [0, 3]], "rows have different lengths"),
         (np.zeros((0, 3), int), "empty: it has no faces"),
         ([[0, 1, 2], [0, 1, 3], [1, 0, 2]], "borders 3"),
     ],
@@ -215,9 +271,18 @@ def test_positions_of_a_wrong_shape(V):
         ip.DeltaComplex.from_mesh(np.array([["a", "b", "c"]]), TETRAHEDRON)
 
 
-def test_coordinates_whose_lengths_overflow():
-    with pytest.raises(ip.MeshError, match="edge lengths overflow"):
-        ip.DeltaComplex.from_mesh(POINTS * 1e200, TETRAHEDRON)
+@pytest.mark.parametrize("scale", [1e-200, 1e-80, 1e80, 1e200])
+def test_scales_at_which_areas_cannot_be_computed(scale):
+    with pytest.raises(ip.ComplexError, match=r"Rescale the surface|degenerate: its sides 0, 0, 0"):
+        ip.DeltaComplex.from_mesh(POINTS * scale, TETRAHEDRON)
+
+
+@pytest.mark.parametrize("exponent", [-190, -7, 190])
+def test_scaling_by_powers_of_two_changes_no_bit(exponent):
+    V, F = noisy_torus(6, 5, 0.2, 3)
+    one, other = (ip.period_matrix(W, F) for W in (V, V * 2.0**exponent))
+    assert one.dirichlet.tobytes() == other.dirichlet.tobytes()
+    assert one.bound == other.bound
 
 
 def test_two_fans_at_a_vertex():
@@ -293,6 +358,13 @@ def test_unequal_lengths_of_glued_sides():
         ip.ComplexError, match=r"different lengths: 1 at side 2 of face 0, 1\.000001 at"
     ):
         ip.DeltaComplex.from_lengths(lengths, TETRAHEDRON)
+    for difference, allowed in ((0.9e-9, True), (1.1e-9, False)):
+        lengths[1, 1] = 1.0 + difference
+        if allowed:
+            ip.DeltaComplex.from_lengths(lengths, TETRAHEDRON)
+            continue
+        with pytest.raises(ip.ComplexError, match="different lengths"):
+            ip.DeltaComplex.from_lengths(lengths, TETRAHEDRON)
     lengths[1, 1] = 1.0 + 1e-12
     K = ip.DeltaComplex.from_lengths(lengths, TETRAHEDRON)
     assert K.lengths[1, 1] == K.lengths.ravel()[K.twin[1, 1]] == 1.0 + 0.5e-12
@@ -328,6 +400,9 @@ def test_gluings_of_a_wrong_shape_or_type():
         ([((0, 0), (0, 2)), ((0, 1), (1, 3))], 1, "side 3 of square 0 is glued 0 times"),
         ([((0, 0), (0, 4)), ((0, 1), (0, 3))], 1, "sides are 0 bottom"),
         ([((0, 0), (0, 2)), ((0, 1), (0, 3))], 0, "n = 0"),
+        ([((0, 0), (0, 2)), ((0, 1), (0, 3))], 2.0, "n = 2.0"),
+        ([((0, 0), (0, 2)), ((0, 1), (10**9, 3))], 1, "square 1000000000 is named"),
+        ([((0, 0), (0, 2)), ((0, 1),)], 1, "list of pairs"),
         ([(0, 1), (2, 3)], 1, "list of pairs"),
     ],
 )

@@ -130,6 +130,12 @@ def test_another_root_gives_another_basis_of_the_same_lattice():
     assert np.array_equal(pairing(K, other, other), standard_form(2))
 
 
+@pytest.mark.parametrize("root", [-1, 10**6])
+def test_roots_that_are_no_vertices(root):
+    with pytest.raises(ValueError, match=f"root = {root} is no vertex"):
+        ip.cohomology_basis(ip.DeltaComplex.from_squares(BOLZA, 2), root=root)
+
+
 def test_sphere_has_no_homology():
     tetrahedron = [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]]
     K = ip.DeltaComplex.from_lengths(np.ones((4, 3)), tetrahedron)

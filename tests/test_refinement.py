@@ -9,7 +9,7 @@ import igl_periods as ip
 from igl_periods.delta_complex import cone_angles, cotan_weights, is_orientable
 from igl_periods.harmonic import dirichlet_matrix, harmonic_potentials
 from igl_periods.homology import pairing
-from igl_periods.refinement import split
+from igl_periods.refinement import locate, split
 from igl_periods.triangles import double_areas
 
 
@@ -97,6 +97,22 @@ def test_positions_are_midpoints():
     sides = np.linalg.norm(np.roll(corners, 1, axis=1) - np.roll(corners, -1, axis=1), axis=2)
     assert np.allclose(sides, refined.lengths, rtol=1e-13)
     assert np.array_equal(refined.positions[: len(V)], V)
+
+
+def test_points_are_located_in_the_children():
+    V, F = noisy_torus(5, 4, 0.1, 0)
+    K = ip.DeltaComplex.from_mesh(V, F)
+    refined, _ = split(K, ip.cohomology_basis(K))
+    rng = np.random.default_rng(0)
+    face, weights = rng.integers(0, K.n_faces, 200), rng.dirichlet([1, 1, 1], 200)
+    child, located = locate(face, weights)
+    assert np.array_equal(child // 4, face)
+    assert set(child % 4) == {0, 1, 2, 3}
+    assert located.min() >= 0
+    assert np.allclose(located.sum(axis=1), 1, rtol=1e-14)
+    for L, f, w in ((K, face, weights), (refined, child, located)):
+        points = np.einsum("ns,nsd->nd", w, L.positions[L.corner_vertex[f]])
+        assert np.allclose(points, np.einsum("ns,nsd->nd", weights, V[F[face]]), atol=1e-13)
 
 
 def test_boundary_and_orientation_survive():

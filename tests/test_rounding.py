@@ -1,5 +1,7 @@
 """The allowance for rounding: it covers the true errors, found in ball arithmetic."""
 
+from fractions import Fraction
+
 import ball_arithmetic
 import flint
 import numpy as np
@@ -8,7 +10,8 @@ from random_surfaces import L_SHAPE, noisy_torus, random_gluing, random_lengths
 
 import igl_periods as ip
 from igl_periods.delaunay import delaunay_flips
-from igl_periods.rounding import congruence, length_sensitivity
+from igl_periods.rounding import congruence
+from igl_periods.triangles import length_sensitivity
 
 
 def needle_gluing(n_faces, size, rng):
@@ -67,6 +70,37 @@ def test_allowance_covers_the_error_of_D(name, K):
     error = np.linalg.norm(whiten @ difference @ whiten.T, 2)
     assert error <= pm.rounding
     assert pm.rounding < 1e-3
+
+
+def sheared_strips(n, m, k, h):
+    """A flat torus of congruent triangles (1, b, c) in strips that are sheared to and fro."""
+    b, c = float(np.hypot(k, h)), float(np.hypot(k - 1, h))
+
+    def vertex(i, j):
+        return i % n * m + j % m
+
+    F, lengths = [], []
+    for j in range(m):
+        s, t = (k, k - 1) if j % 2 == 0 else (1 - k, -k)
+        for i in range(n):
+            a = vertex(i + s, j + 1)
+            F += [(vertex(i, j), vertex(i + 1, j), a), (vertex(i, j), a, vertex(i + t, j + 1))]
+            lengths += [(c, b, 1), (1, c, b)] if j % 2 == 0 else [(b, c, 1), (1, b, c)]
+    return ip.DeltaComplex.from_lengths(lengths, F), b, c
+
+
+@pytest.mark.parametrize(("n", "m", "k", "h"), [(40, 4, 18, 0.9), (200, 4, 90, 0.7)])
+def test_rounding_adds_up_over_many_flips(n, m, k, h):
+    # The modulus follows from the lengths as they are stored, exactly: i n / (m height).
+    K, b, c = sheared_strips(n, m, k, h)
+    _, rounds = delaunay_flips(K)
+    assert len(rounds) > k / 2
+    b, c = Fraction(b), Fraction(c)
+    foot = (1 + b * b - c * c) / 2
+    exact = 1j * n / (m * float(b * b - foot * foot) ** 0.5)
+    pm = ip.period_matrix(K).reduced()
+    error = abs(pm.matrix[0, 0] - exact) / exact.imag
+    assert 1e-13 < error <= pm.bound < 1e-6
 
 
 def test_sensitivity_of_simple_triangles():

@@ -1,0 +1,336 @@
+r"""Raising the degree, and splitting faces, until the certified bound meets a tolerance.
+
+The first attempt is piecewise linear, the next one has degree 2.  From there on the bound b falls
+like :math:`r^{-p}` in the degree p, with a ratio r > 1 that is measured as soon as there are two
+degrees to compare; so the degree that meets the tolerance can be predicted, and the degrees in
+between are skipped.  On thin triangles r is close to 1, and then it can be cheaper to divide those
+faces that hold most of the bound (:mod:`igl_periods.energy_excess`; Dörfler's marking), which costs
+few more unknowns and divides the bound by 2 at least.  Of the two ways to the tolerance the one
+with the least predicted cost is taken, in multiples of the last attempt:
+
+.. math::  (p' / p)^2 \quad\text{for the degree } p',
+           \qquad  \sum_{i=1}^{n} q^i \quad\text{for n rounds of division,}
+
+q the growth of the number of faces in a round.
+
+References
+----------
+Babuška, Suri, "The p and h-p versions of the finite element method" (1994).
+Dörfler, "A convergent adaptive algorithm for Poisson's equation" (1996).
+"""
+
+from __future__ import annotations
+
+import os
+import time
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_array
+
+from .delaunay import intrinsic_delaunay
+from .delta_complex import DeltaComplex, cotan_weights
+from .energy_excess import williamson_basis
+from .errors import ComplexError
+from .harmonic import dirichlet_matrix as linear_dirichlet_matrix
+from .harmonic import harmonic_potentials
+from .high_order import (
+    HighOrderForms,
+    dirichlet_matrix,
+    energy_excess,
+    high_order_forms,
+    rounding_allowance,
+    separate_cones,
+)
+from .local_refinement import insert_barycentres
+from .periods import PeriodMatrix
+from .rounding import geometric_allowance
+from .stages import logger
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Certify = Callable[[Floats, float], PeriodMatrix]
+
+HIGHEST_DEGREE = 20
+
+# The ratio r of the bounds of successive degrees, before it is measured.
+_USUAL_RATIO = 12.0
+_LEAST_RATIO = 1.05
+# Each round of division treats faces with this part of the excess, and divides the bound by 2.
+_MARKED = 0.8
+_ROUND_RATIO = 2.0
+# Of the physical memory, the part that one attempt may take.
+_MEMORY_SHARE = 0.6
+
+
+class ToleranceWarning(UserWarning):
+    """The tolerance was not met; the result is the best certified one."""
+
+
+@dataclass(frozen=True, eq=False)
+class Triangulation:
+    """A triangulation of the surface with the marking on it, before cone points are separated.
+
+    Attributes
+    ----------
+    complex : DeltaComplex
+    cochains : (2g, n_edges) sparse int
+        Closed.
+    basis : (2g, 2g) int
+        The matrix T for which T cochains is a canonical basis.
+    """
+
+    complex: DeltaComplex
+    cochains: csr_array
+    basis: Ints
+
+
+@dataclass(frozen=True, eq=False)
+class Attempt:
+    """A certified period matrix, and what it took.
+
+    Attributes
+    ----------
+    triangulation : Triangulation
+    degree : int
+    unknowns : int
+    seconds : float
+    result : PeriodMatrix
+    excess : (m,) float
+        The shares of the faces in Σ (d_i − 1).  Empty where it is not needed: at degree 1, and
+        where the tolerance is met.
+    """
+
+    triangulation: Triangulation
+    degree: int
+    unknowns: int
+    seconds: float
+    result: PeriodMatrix
+    excess: Floats
+
+    @property
+    def bound(self) -> float:
+        """The certified bound."""
+        assert self.result.bound is not None
+        return self.result.bound
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """What to try next, and the time it should take, in seconds."""
+
+    triangulation: Triangulation
+    degree: int
+    seconds: float
+
+
+def period_matrix_within(
+    triangulation: Triangulation,
+    certify: Certify,
+    tolerance: float,
+    max_unknowns: int | None = None,
+) -> PeriodMatrix:
+    """Compute a period matrix whose certified bound is at most ``tolerance``.
+
+    Each attempt is logged at level INFO to the logger ``igl_periods``: degree, faces, unknowns,
+    bound, seconds.
+
+    Parameters
+    ----------
+    triangulation : Triangulation
+        Of a closed, oriented, connected surface; best Delaunay.
+    certify : callable
+        Makes a period matrix of the Dirichlet matrix of forms in the classes of the cochains and
+        its rounding allowance.
+    tolerance : float
+        The bound to reach.
+    max_unknowns : int, optional
+        No attempt has more unknowns in its sparse system than this, nor more than memory allows.
+
+    Returns
+    -------
+    PeriodMatrix
+        The attempt of the least bound.
+
+    Warns
+    -----
+    ToleranceWarning
+        If the tolerance is not met: it is below what rounding allows, or meeting it takes more
+        unknowns, more memory or a higher degree than there may be.
+
+    Raises
+    ------
+    ValueError
+        If the tolerance is not positive.
+    """
+    if not tolerance > 0.0:
+        raise ValueError(f"tolerance = {tolerance}: a bound is always positive.")
+    attempts = [_linear_attempt(triangulation, certify)]
+    while (best := min(attempts, key=lambda attempt: attempt.bound)).bound > tolerance:
+        plan = _next_plan(attempts, tolerance, max_unknowns)
+        outcome = _carried_out(plan, certify, tolerance) if isinstance(plan, Plan) else plan
+        if isinstance(outcome, str):
+            warnings.warn(
+                f"the bound is {best.bound:.2g}, not {tolerance:.2g} as wanted: {outcome}.",
+                ToleranceWarning,
+                stacklevel=3,
+            )
+            break
+        attempts.append(outcome)
+    return best.result
+
+
+def count_unknowns(K: DeltaComplex, degree: int) -> int:
+    """Unknowns of the condensed system on a complex whose cone points are separated."""
+    return K.n_vertices + (degree - 1) * K.n_edges
+
+
+def estimated_memory(K: DeltaComplex, degree: int, n_forms: int) -> float:
+    """Bytes that forms of some degree take on a complex whose cone points are separated.
+
+    Bubbles in terms of traces, the entries of the system with their indices, the Cholesky factor
+    of n unknowns with at most about 2 n (p + 1) log₂ n entries, and the forms.
+    """
+    n, traces = count_unknowns(K, degree), 3 * degree
+    extensions = K.n_faces * (degree - 1) ** 2 * traces
+    entries = 5 * K.n_faces * traces * (traces + 1) / 2
+    factor = 2.0 * n * (degree + 1) * np.log2(n + 1)
+    return 8.0 * float(extensions + entries + factor + 4 * n * n_forms)
+
+
+def _linear_attempt(triangulation: Triangulation, certify: Certify) -> Attempt:
+    start = time.perf_counter()
+    K, cochains = triangulation.complex, triangulation.cochains
+    potentials = harmonic_potentials(K, cotan_weights(K), cochains)
+    D = linear_dirichlet_matrix(K, cochains, potentials)
+    energies = partial(linear_dirichlet_matrix, K, cochains, potentials)
+    result = certify(D, geometric_allowance(K, D, energies))
+    seconds = time.perf_counter() - start
+    return _logged(Attempt(triangulation, 1, K.n_vertices, seconds, result, np.zeros(0)))
+
+
+def _carried_out(plan: Plan, certify: Certify, tolerance: float) -> Attempt | str:
+    """The attempt as planned, or how it failed."""
+    start = time.perf_counter()
+    logger.info("degree %2d next, in about %.2g s", plan.degree, plan.seconds)
+    where = plan.triangulation
+    try:
+        forms = high_order_forms(where.complex, where.cochains, plan.degree)
+        D = dirichlet_matrix(forms)
+        result = certify(D, rounding_allowance(forms, D))
+    except ComplexError as error:
+        return f"degree {plan.degree} fails, {error}"
+    assert result.bound is not None
+    excess = _excess(forms, where, result) if result.bound > tolerance else np.zeros(0)
+    seconds = time.perf_counter() - start
+    return _logged(Attempt(where, plan.degree, len(forms.traces), seconds, result, excess))
+
+
+def _excess(forms: HighOrderForms, where: Triangulation, result: PeriodMatrix) -> Floats:
+    """The shares of the faces before cone points were separated."""
+    pairs = williamson_basis(result.dirichlet) @ where.basis
+    shares = energy_excess(forms, pairs).sum(axis=0)
+    return np.asarray(shares.reshape(where.complex.n_faces, -1).sum(axis=1))
+
+
+def _logged(attempt: Attempt) -> Attempt:
+    logger.info(
+        "degree %2d  %8d faces  %9d unknowns  bound %.1e  %7.2f s",
+        attempt.degree,
+        attempt.triangulation.complex.n_faces,
+        attempt.unknowns,
+        attempt.bound,
+        attempt.seconds,
+    )
+    return attempt
+
+
+def _next_plan(attempts: list[Attempt], tolerance: float, max_unknowns: int | None) -> Plan | str:
+    """The cheapest way to go on, or why there is none."""
+    last, rounding = attempts[-1], attempts[-1].result.rounding
+    if last.bound < 2.0 * rounding:
+        return f"rounding accounts for {rounding:.2g} of it"
+    if _stagnates(attempts):
+        return "neither a higher degree nor smaller faces lower it further"
+    target = max(tolerance, 1.2 * rounding)
+    plans = [_raised(attempts, target)] if last.degree < HIGHEST_DEGREE else []
+    if last.degree > 1:
+        plans.append(_divided(last, target))
+    reasons = []
+    for _, plan in sorted(plans, key=lambda costed: costed[0]):
+        reason = _unaffordable(plan, max_unknowns)
+        if reason is None:
+            return plan
+        reasons.append(reason)
+    return reasons[0]
+
+
+def _stagnates(attempts: list[Attempt]) -> bool:
+    """Whether neither of the last two attempts lowered the best bound by a quarter."""
+    bounds = [attempt.bound for attempt in attempts]
+    return len(bounds) > 3 and min(bounds[-2:]) > 0.75 * min(bounds[:-2])
+
+
+def _raised(attempts: list[Attempt], target: float) -> tuple[float, Plan]:
+    """The predicted cost of meeting the target by the degree alone, and the next step there."""
+    last = attempts[-1]
+    if last.degree == 1:
+        return 0.0, Plan(last.triangulation, 2, 8.0 * last.seconds)
+    ratio = _measured_ratio(attempts)
+    usual = ratio or _USUAL_RATIO
+    needed = max(int(np.ceil(np.log(last.bound / target) / np.log(usual))), 1)
+    step = min(needed, 2 if ratio is None else 6, HIGHEST_DEGREE - last.degree)
+    reached = last.degree + needed
+    cost = (reached / last.degree) ** 2 if reached <= HIGHEST_DEGREE else np.inf
+    degree = last.degree + step
+    seconds = last.seconds * (degree / last.degree) ** 2
+    return cost, Plan(last.triangulation, degree, seconds)
+
+
+def _measured_ratio(attempts: list[Attempt]) -> float | None:
+    """The ratio of the bounds of successive degrees, by the last two to be compared."""
+    for one, two in zip(attempts[-2::-1], attempts[:0:-1]):
+        if 1 < one.degree < two.degree:
+            change = _discretisation(one) / _discretisation(two)
+            return float(max(change ** (1.0 / (two.degree - one.degree)), _LEAST_RATIO))
+    return None
+
+
+def _discretisation(attempt: Attempt) -> float:
+    return max(attempt.bound - attempt.result.rounding, np.finfo(float).eps)
+
+
+def _divided(last: Attempt, target: float) -> tuple[float, Plan]:
+    """The predicted cost of meeting the target by division, and the first round of it."""
+    where = last.triangulation
+    order = np.argsort(-last.excess, kind="stable")
+    held = np.cumsum(last.excess[order])
+    marked = order[: 1 + int(np.searchsorted(held, _MARKED * held[-1]))]
+    finer = intrinsic_delaunay(*insert_barycentres(where.complex, where.cochains, marked))
+    separated, _ = separate_cones(*finer)
+    growth = count_unknowns(separated, last.degree) / last.unknowns
+    rounds = np.ceil(np.log(last.bound / target) / np.log(_ROUND_RATIO))
+    cost = float(np.sum(growth ** np.arange(1.0, rounds + 1.0)))
+    divided = Triangulation(*finer, where.basis)
+    return cost, Plan(divided, last.degree, growth * last.seconds)
+
+
+def _unaffordable(plan: Plan, max_unknowns: int | None) -> str | None:
+    """Why a plan is too large, if it is."""
+    K, cochains = separate_cones(plan.triangulation.complex, plan.triangulation.cochains)
+    what = f"degree {plan.degree} on {plan.triangulation.complex.n_faces} faces takes"
+    unknowns = count_unknowns(K, plan.degree)
+    if max_unknowns is not None and unknowns > max_unknowns:
+        return f"{what} {unknowns} unknowns, and {max_unknowns} are the limit"
+    needed, memory = estimated_memory(K, plan.degree, cochains.shape[0]), _physical_memory()
+    if needed > _MEMORY_SHARE * memory:
+        return f"{what} about {needed / 1e9:.1f} GB of the {memory / 1e9:.1f} GB of memory"
+    return None
+
+
+def _physical_memory() -> float:
+    return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
