@@ -88,7 +88,7 @@ def tube(points: Floats, normals: Floats, radius: float, closed: bool) -> tuple[
     after, next_to = (i + 1) % len(points), (j + 1) % _SIDES
     a, b = i * _SIDES + j, after * _SIDES + j
     c, d = after * _SIDES + next_to, i * _SIDES + next_to
-    return V, np.stack([a, b, c, a, c, d], axis=-1).reshape(-1, 3)
+    return V, np.stack([a, c, b, a, d, c], axis=-1).reshape(-1, 3)
 
 
 def _resampled(curve: Floats, step: float) -> Floats:
