@@ -15,6 +15,9 @@ from .automorphisms import SymplecticGroup as SymplecticGroup
 from .automorphisms import symplectic_automorphism_group as symplectic_automorphism_group
 from .catalogue import catalogue as catalogue
 from .delta_complex import DeltaComplex as DeltaComplex
+from .differentials import abel_jacobi as abel_jacobi
+from .double import double as double
+from .double import real_structure as real_structure
 from .double_graph import DoubleGraph as DoubleGraph
 from .double_graph import double_graph as double_graph
 from .dual_cycles import dual_homology_basis as dual_homology_basis
@@ -24,6 +27,7 @@ from .equivalence import symplectic_isomorphisms as symplectic_isomorphisms
 from .errors import ComplexError as ComplexError
 from .errors import MeshError as MeshError
 from .errors import NotASiegelPointError as NotASiegelPointError
+from .form_choice import most_even_form as most_even_form
 from .half_space import siegel_distance as siegel_distance
 from .half_space import siegel_transform as siegel_transform
 from .hodge import hodge_decomposition as hodge_decomposition
@@ -37,11 +41,14 @@ from .homotopy import shortest_loops as shortest_loops
 from .identification import Identification as Identification
 from .identification import identify as identify
 from .invariants import to_flint as to_flint
+from .local_refinement import refined_period_matrix as refined_period_matrix
 from .mesh import MeshReport as MeshReport
 from .mesh import load_mesh as load_mesh
+from .parametrization import parametrize as parametrize
 from .periods import PeriodMatrix as PeriodMatrix
 from .pipeline import period_matrix as period_matrix
 from .pipeline import period_matrix_from_weights as period_matrix_from_weights
+from .quality import mesh_quality as mesh_quality
 from .richardson import Extrapolation as Extrapolation
 from .richardson import richardson as richardson
 from .siegel import SiegelReduction as SiegelReduction

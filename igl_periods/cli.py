@@ -13,17 +13,23 @@ import os
 import sys
 import warnings
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
-from .delta_complex import DeltaComplex
+import numpy as np
+from numpy.typing import NDArray
+
+from .cli_pictures import add_commands
+from .cli_surface import ALL, add_surface_arguments, read_surfaces
+from .double import real_structure
 from .identification import identify
-from .mesh import MeshReport, load_mesh
+from .mesh import MeshReport
 from .periods import PeriodMatrix, siegel_reduced
-from .pipeline import as_complex, period_matrix
-from .serialization import read_gluing, result_to_json
+from .pipeline import period_matrix
+from .serialization import SCHEMA, result_to_json
 from .stages import logger, stage
 from .summary import summary
+
+Result = tuple[PeriodMatrix, PeriodMatrix, NDArray[np.int64]]
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -62,7 +68,8 @@ def _parser() -> argparse.ArgumentParser:
         help="the period matrix of a mesh",
         description="Compute the period matrix of a closed, oriented, connected triangle mesh.",
     )
-    _add_mesh_arguments(compute)
+    add_surface_arguments(compute, several=True)
+    _add_options(compute)
     compute.add_argument("--json", action="store_true", help="print one JSON document")
     compute.set_defaults(run=_compute)
     recognise = commands.add_parser(
@@ -70,7 +77,8 @@ def _parser() -> argparse.ArgumentParser:
         help="which named surfaces a mesh can be",
         description="Compare the period matrix of a mesh with those of named surfaces.",
     )
-    _add_mesh_arguments(recognise)
+    add_surface_arguments(recognise, several=True)
+    _add_options(recognise)
     recognise.add_argument(
         "--mesh-error",
         type=float,
@@ -78,16 +86,12 @@ def _parser() -> argparse.ArgumentParser:
         help="how far the mesh may be from the surface that it samples (a Siegel distance)",
     )
     recognise.set_defaults(run=_identify)
+    add_commands(commands)
     return parser
 
 
-def _add_mesh_arguments(command: argparse.ArgumentParser) -> None:
-    """What every command needs to get from a mesh file to a period matrix."""
-    command.add_argument(
-        "mesh",
-        metavar="MESH",
-        help="a mesh (OBJ, OFF, PLY, STL, …), or a gluing of triangles (.json)",
-    )
+def _add_options(command: argparse.ArgumentParser) -> None:
+    """Add the options of :func:`period_matrix`."""
     command.add_argument(
         "--weights",
         choices=("intrinsic", "extrinsic"),
@@ -109,58 +113,66 @@ def _add_mesh_arguments(command: argparse.ArgumentParser) -> None:
         metavar="R",
         help="raise the degree until the certified bound is at most R",
     )
-    command.add_argument(
-        "--repair",
-        action="store_true",
-        help="weld, drop, orient and split what keeps the mesh from being a surface",
-    )
-    command.add_argument("--quiet", action="store_true", help="no stage names on the terminal")
-
-
-def _read(options: argparse.Namespace) -> tuple[DeltaComplex, MeshReport | None]:
-    """The surface in a file, and the report of a mesh; a gluing (.json) has none."""
-    with stage("reading the file"):
-        if Path(options.mesh).suffix.lower() == ".json":
-            return read_gluing(options.mesh), None
-        V, F, report = load_mesh(options.mesh, repair=options.repair)
-    return as_complex(V, F), report
-
-
-def _period_matrix(options: argparse.Namespace) -> tuple[PeriodMatrix, str, MeshReport | None]:
-    """The period matrix, with the surface in words and the report of a mesh."""
-    K, report = _read(options)
-    words = str(report) if report else f"{options.mesh}: {K.n_faces} triangles, glued as told"
-    pm = period_matrix(K, **_chosen(options))
-    return pm, words, report
 
 
 def _chosen(options: argparse.Namespace) -> dict[str, Any]:
-    """The options of :func:`period_matrix`."""
     return {name: getattr(options, name) for name in ("weights", "delaunay", "degree", "tolerance")}
 
 
 def _identify(options: argparse.Namespace) -> int:
-    pm, words, _ = _period_matrix(options)
-    with stage("comparing"):
-        found = identify(pm, tolerance=options.mesh_error)
-    print(f"{words}\n\n{found}")
+    surfaces, report = read_surfaces(options)
+    print(_in_words(options, report))
+    for k, K in enumerate(surfaces):
+        pm = period_matrix(K, **_chosen(options))
+        with stage("comparing"):
+            found = identify(pm, tolerance=options.mesh_error)
+        print(f"{_heading(k, len(surfaces))}\n{found}")
     return 0
 
 
 def _compute(options: argparse.Namespace) -> int:
-    pm, words, report = _period_matrix(options)
-    with stage("Siegel reduction"):
-        reduced, gamma = siegel_reduced(pm)
+    surfaces, report = read_surfaces(options)
+    results = []
+    for K in surfaces:
+        pm = period_matrix(K, **_chosen(options))
+        with stage("Siegel reduction"):
+            results.append((pm, *siegel_reduced(pm)))
     if options.json:
-        document = {
-            **result_to_json(pm, reduced, gamma),
-            "options": {**_chosen(options), "repair": options.repair},
-            "mesh": report.as_dict() if report else None,
-        }
-        print(json.dumps(document, indent=1))
-    else:
-        print(f"{words}\n\n{summary(pm, reduced, gamma)}")
+        print(json.dumps(_document(options, results, report), indent=1))
+        return 0
+    print(_in_words(options, report))
+    for k, result in enumerate(results):
+        print(f"{_heading(k, len(results))}\n{summary(*result)}")
     return 0
+
+
+def _document(
+    options: argparse.Namespace, results: list[Result], report: MeshReport | None
+) -> dict[str, Any]:
+    """One JSON document: the only surface itself, or with all components a list of them."""
+    documents = [result_to_json(*result) for result in results]
+    surfaces: dict[str, Any] = documents[0]
+    if options.component == ALL:
+        surfaces = {"components": documents}
+    if options.double and options.component is None:
+        surfaces["mesh_marking"]["real_structure"] = real_structure(results[0][0]).tolist()
+    given = {name: getattr(options, name) for name in ("repair", "double", "component")}
+    return {
+        "schema": SCHEMA,
+        "version": importlib.metadata.version("igl_periods"),
+        **surfaces,
+        "options": {**_chosen(options), **given},
+        "mesh": report.as_dict() if report else None,
+    }
+
+
+def _in_words(options: argparse.Namespace, report: MeshReport | None) -> str:
+    words = str(report) if report else f"{options.mesh}: triangles, glued as told"
+    return f"{words}\nits double" if options.double else words
+
+
+def _heading(k: int, n: int) -> str:
+    return f"\nComponent {k + 1} of {n}" if n > 1 else ""
 
 
 def _refused(message: str) -> int:

@@ -278,19 +278,19 @@ def check_closed_and_oriented(K: DeltaComplex) -> None:
     if K.n_boundary_edges:
         raise ComplexError(
             f"the surface is not closed: it has {K.n_boundary_edges} boundary edges. Fill the "
-            "holes, or take the double of the surface, which is closed."
+            "holes, or take the double of the surface (igl_periods.double, --double)."
         )
     if K.n_reversing_edges:
         if is_orientable(K):
             raise ComplexError(
                 f"the faces are not oriented consistently: across {K.n_reversing_edges} edges the "
                 "two faces run the same way. The surface is orientable: turn faces over until "
-                "they agree (igl.bfs_orient does)."
+                "they agree (igl.bfs_orient, load_mesh(…, repair=True), --repair)."
             )
         raise ComplexError(
             "the surface is not orientable: however its faces are turned, orientations disagree "
             f"somewhere (now across {K.n_reversing_edges} edges). It has no period matrix; its "
-            "double has one."
+            "double has one (igl_periods.double, --double)."
         )
 
 
@@ -301,7 +301,7 @@ def check_connected(K: DeltaComplex) -> None:
         sizes = ", ".join(str(size) for size in np.sort(np.bincount(label))[::-1][:5])
         raise ComplexError(
             f"the surface has {n} components (of {sizes}{', …' if n > 5 else ''} faces), and each "
-            "has a period matrix of its own: take them one by one from K.components()."
+            "has a period matrix of its own: take them one by one (K.components(), --component)."
         )
 
 

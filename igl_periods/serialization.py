@@ -7,7 +7,6 @@ which grows when a reader of the old form would misread the new one.
 from __future__ import annotations
 
 import json
-from importlib.metadata import version
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -83,14 +82,12 @@ def cycles_to_json(K: DeltaComplex) -> dict[str, list[list[int]]]:
 
 
 def result_to_json(pm: PeriodMatrix, reduced: PeriodMatrix, gamma: NDArray[Any]) -> dict[str, Any]:
-    """The document of one surface: its matrix in the marking of the mesh and Siegel reduced.
+    """One surface: its matrix in the marking of the mesh, and Siegel reduced.
 
     ``reduced`` is the matrix in the marking ``gamma`` acts to: Π_reduced = (aΠ + b)(cΠ + d)⁻¹.
     """
     K = pm.complex
     return {
-        "schema": SCHEMA,
-        "version": version("igl_periods"),
         "surface": {
             "vertices": K.n_vertices,
             "edges": K.n_edges,

@@ -15,6 +15,7 @@ from random_surfaces import noisy_torus, torus_of_revolution
 
 import igl_periods as ip
 from igl_periods.cli import main
+from igl_periods.symplectic import standard_form
 
 DATA = Path(__file__).parents[1] / "data"
 
@@ -57,7 +58,8 @@ def test_json_is_complete_and_consistent(torus, capsys):
     }  # fmt: skip
     assert document["mesh"]["loaded"]["triangles"] == 480
     assert document["options"] == {
-        "weights": "intrinsic", "delaunay": True, "degree": 1, "tolerance": None, "repair": False
+        "weights": "intrinsic", "delaunay": True, "degree": 1, "tolerance": None,
+        "repair": False, "double": False, "component": None
     }  # fmt: skip
     assert document["version"] == ip.__version__
 
@@ -111,6 +113,49 @@ def test_version(capsys):
         main(["--version"])
     assert exit_.value.code == 0
     assert ip.__version__ in capsys.readouterr().out
+
+
+def test_components_are_computed_one_by_one(tmp_path, capsys):
+    V, F = torus_of_revolution(2.0, 0.8, 12, 8)
+    W, G = noisy_torus(7, 6, 0.1, 2)
+    path = tmp_path / "two.off"
+    igl.write_triangle_mesh(
+        str(path), np.concatenate([V, W + 9.0]), np.concatenate([F, G + len(V)])
+    )
+    assert main(["compute", str(path)]) == 1
+    assert "--component" in capsys.readouterr().err
+    assert main(["compute", str(path), "--component", "all"]) == 0
+    assert "Component 2 of 2" in capsys.readouterr().out
+    assert main(["compute", str(path), "--component", "all", "--json"]) == 0
+    parts = json.loads(capsys.readouterr().out)["components"]
+    assert [part["surface"]["vertices"] for part in parts] == [96, 42]
+    assert main(["compute", str(path), "--component", "2", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["surface"]["vertices"] == 42
+    assert main(["compute", str(path), "--component", "3"]) == 1
+    assert "there is no component 3" in capsys.readouterr().err
+
+
+def test_the_double_of_a_surface_with_boundary(tmp_path, capsys):
+    # A torus without one face has a boundary; its double has genus 2.
+    V, F = torus_of_revolution(2.0, 0.8, 12, 8)
+    path = tmp_path / "open.off"
+    igl.write_triangle_mesh(str(path), V, F[1:])
+    assert main(["compute", str(path)]) == 1
+    assert "--double" in capsys.readouterr().err
+    assert main(["compute", str(path), "--double", "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert document["surface"]["genus"] == 2
+    gamma = np.array(document["mesh_marking"]["real_structure"])
+    assert np.array_equal(gamma @ standard_form(2) @ gamma.T, -standard_form(2))
+
+
+def test_genus_zero_as_json(tmp_path, capsys):
+    path = tmp_path / "sphere.off"
+    V = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    igl.write_triangle_mesh(str(path), V, np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]))
+    assert main(["compute", str(path), "--json"]) == 0
+    marking = json.loads(capsys.readouterr().out)["mesh_marking"]
+    assert (marking["bound"], marking["cycles"]) == (0.0, {"a": [], "b": []})
 
 
 def test_a_sphere_is_no_error(tmp_path, capsys):

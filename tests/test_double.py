@@ -1,0 +1,305 @@
+"""The complex double: known moduli inside the certificate, the involution, the real structure."""
+
+import numpy as np
+import pytest
+from flat_surfaces import flat_strip, grid
+from random_surfaces import noisy_torus, random_gluing, random_lengths
+from scipy.sparse import csr_array
+
+import igl_periods as ip
+from igl_periods.delaunay import intrinsic_delaunay
+from igl_periods.delta_complex import check_surface, is_orientable
+from igl_periods.double import double, involution, lift, real_structure
+from igl_periods.equivalence import symplectic_isomorphisms
+from igl_periods.high_order import dirichlet_matrix, high_order_forms
+from igl_periods.homology import cochains_and_basis, pairing
+from igl_periods.periods import PeriodMatrix
+from igl_periods.symplectic import standard_form
+
+
+def tau_inside_certificate(pm, tau):
+    """Whether (τ), in some marking, is within the certificate of pm."""
+    return bool(symplectic_isomorphisms([[tau]], pm, tolerance=2 * pm.bound + 1e-12))
+
+
+@pytest.mark.parametrize("pieces", [(5, 3), (4, 7)])
+def test_flat_cylinder(pieces):
+    # Glued from two cylinders of circumference a and height b: 2b high, so τ = 2ib/a.
+    K = flat_strip(1.7, 0.9, *pieces, glue_x="straight")
+    pm = ip.period_matrix(double(K))
+    assert pm.bound < 1e-11
+    assert tau_inside_certificate(pm, 2j * 0.9 / 1.7)
+    assert not tau_inside_certificate(pm, 2.001j * 0.9 / 1.7)
+
+
+@pytest.mark.parametrize("pieces", [(5, 3), (6, 4)])
+def test_flat_moebius_band(pieces):
+    # The band is [0, w] × [0, h] with (0, y) ~ (w, h − y); its orientation cover is a cylinder of
+    # circumference 2w, whose boundary points (x, 0) and (x + w, h) are the same in the double.
+    K = flat_strip(1.3, 0.8, *pieces, glue_x="turned")
+    assert not is_orientable(K)
+    pm = ip.period_matrix(double(K))
+    assert pm.bound < 1e-11
+    assert tau_inside_certificate(pm, 0.5 + 0.8j / 2.6)
+    assert not tau_inside_certificate(pm, 0.8j / 2.6)
+
+
+def test_flat_klein_bottle():
+    # The orientation cover of the a × b Klein bottle is the 2a × b torus.
+    K = flat_strip(1.3, 0.9, 5, 4, glue_x="turned", glue_y="straight")
+    assert K.n_boundary_edges == 0
+    pm = ip.period_matrix(double(K))
+    assert pm.bound < 1e-11
+    assert tau_inside_certificate(pm, 0.9j / 2.6)
+
+
+def annulus(r, n):
+    """Concentric regular n-gons with the radii of a geometric progression from r to 1."""
+    rows = n // 5
+    radius = r ** (np.arange(rows + 1) / rows)
+    angle = 2 * np.pi * (np.arange(n)[:, None] + 0.5 * np.arange(rows + 1)) / n
+    V = np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=-1).reshape(-1, 2)
+    F = grid(n, rows)
+    return V, F % len(V)
+
+
+def test_round_annulus_converges_with_order_two():
+    r = 0.3
+    tau = 1j * np.log(1 / r) / np.pi
+    errors = []
+    for n in (20, 40, 80):
+        pm = ip.period_matrix(double(ip.DeltaComplex.from_mesh(*annulus(r, n)))).reduced()
+        # Im τ < 1, so that the reduced matrix is (−1/τ).
+        errors.append(abs(pm.matrix[0, 0] + 1 / tau))
+    rates = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert errors[-1] < 2e-3
+    assert np.all(np.abs(rates - 2) < 0.15)
+
+
+def square_with_holes(n, holes):
+    """[0, 7]² divided into 7n × 7n squares, without the unit squares at the given corners."""
+    size = 7 * n
+    F = grid(size, size).reshape(size, size, 2, 3)
+    keep = np.ones((size, size), dtype=bool)
+    for x, y in holes:
+        keep[x * n : (x + 1) * n, y * n : (y + 1) * n] = False
+    x, y = np.meshgrid(np.arange(size + 1), np.arange(size + 1), indexing="ij")
+    V = np.stack([x, y], axis=-1).reshape(-1, 2) / n
+    return ip.DeltaComplex.from_mesh(V, F[keep].reshape(-1, 3))
+
+
+def high_order(K, degree):
+    cochains, T = cochains_and_basis(K)
+    D = dirichlet_matrix(high_order_forms(K, cochains, degree))
+    return PeriodMatrix(T @ D @ T.T, True, csr_array(csr_array(T) @ cochains), K)
+
+
+def test_square_with_two_holes_agrees_with_a_finer_mesh():
+    holes = ((1, 2), (4, 3))
+    coarse, fine = (ip.period_matrix(double(square_with_holes(n, holes))) for n in (2, 4))
+    assert coarse.genus == fine.genus == 2
+    # At the corners of the holes the angle of the double is 3π: P1 converges with h^(4/3).
+    assert 1.2 < np.log2(coarse.bound / fine.bound) < 1.5
+    assert fine.bound < 0.031
+    # The two certificates are about the same surface, and say so; another pair of holes is
+    # another surface, and they prove it.
+    assert symplectic_isomorphisms(coarse, fine, limit=1)
+    accurate = [high_order(double(square_with_holes(1, h)), 7) for h in (holes, ((1, 2), (4, 2)))]
+    assert max(pm.bound for pm in accurate) < 2e-6
+    assert symplectic_isomorphisms(fine, accurate[0], limit=1)
+    different = symplectic_isomorphisms(*accurate)
+    assert not different
+    assert different.certified
+    assert different.complete
+
+
+def test_square_with_two_holes_in_the_same_marking():
+    K = double(square_with_holes(1, ((1, 2), (4, 3))))
+    coarse, accurate = ip.period_matrix(K), high_order(K, 7)
+    excess = np.abs(accurate.matrix - coarse.matrix) - coarse.entry_bounds - accurate.entry_bounds
+    assert np.all(excess < 0)
+
+
+def annulus_pair():
+    """A square with two holes whose corner is displaced: nothing is symmetric."""
+    K = square_with_holes(1, ((1, 2), (4, 3)))
+    V, F = K.positions.copy(), K.corner_vertex
+    V += 0.2 * np.random.default_rng(3).uniform(-1, 1, V.shape)
+    return ip.DeltaComplex.from_mesh(V, F)
+
+
+def moebius_with_hole():
+    K = flat_strip(2.0, 1.0, 8, 5, glue_x="turned", seed=4)
+    keep = np.ones(K.n_faces, dtype=bool)
+    keep[[24, 25]] = False
+    return ip.DeltaComplex.from_lengths(K.lengths[keep], K.corner_vertex[keep])
+
+
+SURFACES = {
+    "square with two holes": (annulus_pair, 3),
+    "cylinder": (lambda: flat_strip(1.7, 0.9, 5, 3, "straight"), 2),
+    "Moebius band": (lambda: flat_strip(1.3, 0.8, 5, 3, "turned"), 1),
+    "Moebius band with a hole": (moebius_with_hole, 2),
+    "Klein bottle": (lambda: flat_strip(1.3, 0.9, 5, 4, "turned", "straight"), 0),
+}
+
+
+@pytest.mark.parametrize("name", SURFACES)
+def test_real_structure(name):
+    surface, n_ovals = SURFACES[name]
+    pm = ip.period_matrix(double(surface()))
+    gamma, g = real_structure(pm), pm.genus
+    J = standard_form(g)
+    assert np.array_equal(gamma @ J @ gamma.T, -J)
+    assert np.array_equal(gamma @ gamma, np.eye(2 * g))
+    a, b, c, d = gamma[:g, :g], gamma[:g, g:], gamma[g:, :g], gamma[g:, g:]
+    conjugate = pm.matrix.conj()
+    moved = (a @ conjugate + b) @ np.linalg.inv(c @ conjugate + d)
+    assert np.abs(moved - pm.matrix).max() < 1e-13
+    # Gross, Harris (1981): in a suitable canonical basis the action of σ is
+    # [[1, H], [0, −1]] with H of rank g + 1 − (number of ovals) mod 2, if there are ovals.
+    if n_ovals:
+        assert rank_mod_2(gamma + np.eye(2 * g, dtype=int)) == g + 1 - n_ovals
+
+
+def rank_mod_2(matrix):
+    rows = [int("".join(map(str, row)), 2) for row in matrix % 2]
+    rank = 0
+    while rows:
+        pivot = rows.pop()
+        if pivot:
+            rank += 1
+            low = pivot & -pivot
+            rows = [row ^ pivot if row & low else row for row in rows]
+    return rank
+
+
+def test_real_structure_in_another_marking():
+    pm = ip.period_matrix(double(annulus_pair())).reduced()
+    gamma, g = real_structure(pm), pm.genus
+    a, b, c, d = gamma[:g, :g], gamma[:g, g:], gamma[g:, :g], gamma[g:, g:]
+    moved = (a @ pm.matrix.conj() + b) @ np.linalg.inv(c @ pm.matrix.conj() + d)
+    assert np.abs(moved - pm.matrix).max() < 1e-13
+    # It is found among all orientation-reversing automorphisms, too.
+    found = symplectic_isomorphisms(pm, pm, reversing=True)
+    assert any(np.array_equal(gamma, other) for other in found)
+
+
+def random_surface(seed):
+    """Triangles glued at random, some sides free and some reversing the orientation."""
+    rng = np.random.default_rng(seed)
+    twin = random_gluing(12, rng)
+    lengths = random_lengths(twin, rng)
+    half_edge = np.arange(twin.size).reshape(-1, 3)
+    label = np.minimum(half_edge, twin)
+    same = rng.random(twin.size)[label] < 0.3
+    free = rng.random(twin.size)[label] < 0.2
+    return ip.DeltaComplex.from_gluing(
+        lengths, np.where(free, -1, twin), np.where(free, False, same)
+    )
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_involution_is_an_isometry_without_fixed_faces(seed):
+    K = random_surface(seed)
+    L = double(K)
+    assert L.n_boundary_edges == L.n_reversing_edges == 0
+    # χ(L) = 2 χ(K) − χ(∂K), and a closed curve has χ = 0.
+    assert L.euler_characteristic == 2 * K.euler_characteristic
+    sigma = involution(L)
+    for image in (sigma.face, sigma.vertex, sigma.half_edge, sigma.edge):
+        assert np.array_equal(image[image], np.arange(image.size))
+    assert np.all(sigma.face != np.arange(L.n_faces))
+    assert np.array_equal(L.lengths.ravel()[sigma.half_edge], L.lengths.ravel())
+    assert np.array_equal(sigma.sign[sigma.edge], sigma.sign)
+    # Exactly the boundary stays fixed, point by point.
+    fixed = sigma.edge == np.arange(L.n_edges)
+    assert np.count_nonzero(fixed & (sigma.sign > 0)) == K.n_boundary_edges
+    # σ maps the start of an edge to the start of its image, if it keeps the direction.
+    start, end = np.empty((2, L.n_edges), dtype=int)
+    h = np.flatnonzero(L.sign.ravel() > 0)
+    start[L.edge.ravel()[h]] = np.roll(L.corner_vertex, -1, 1).ravel()[h]
+    end[L.edge.ravel()[h]] = np.roll(L.corner_vertex, 1, 1).ravel()[h]
+    expected = np.where(sigma.sign > 0, start[sigma.edge], end[sigma.edge])
+    assert np.array_equal(sigma.vertex[start], expected)
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_lifted_cochains_are_closed_and_invariant(seed):
+    K = random_surface(seed)
+    L = double(K)
+    f = np.random.default_rng(seed).integers(-9, 9, K.n_vertices)
+    start, end = np.roll(K.corner_vertex, -1, 1), np.roll(K.corner_vertex, 1, 1)
+    exact = np.empty(K.n_edges, dtype=int)
+    exact[K.edge] = K.sign * (f[end] - f[start])
+    lifted = lift(K, L, csr_array(exact[None]))
+    around = (L.sign * lifted.toarray()[0][L.edge]).sum(axis=1)
+    assert np.all(around == 0)
+    moved = involution(L).pull_back(lifted)
+    assert np.array_equal(moved.toarray(), lifted.toarray())
+    # Restricted to the first sheet they are what they were.
+    along = (L.sign * lifted.toarray()[0][L.edge])[: K.n_faces]
+    assert np.array_equal(along, K.sign * exact[K.edge])
+
+
+def test_pairing_changes_sign():
+    L = double(annulus_pair())
+    omega = ip.cohomology_basis(L)
+    moved = involution(L).pull_back(omega)
+    assert np.array_equal(pairing(L, moved, moved), -pairing(L, omega, omega))
+
+
+def test_orientation_does_not_matter():
+    # Faces turned over give the same double up to the names of its parts.
+    K = flat_strip(1.7, 0.9, 5, 4, glue_x="straight")
+    turned = np.where(np.arange(K.n_faces)[:, None] % 3 == 0, [0, 2, 1], [0, 1, 2])
+    L = ip.DeltaComplex.from_lengths(
+        np.take_along_axis(K.lengths, turned, 1), np.take_along_axis(K.corner_vertex, turned, 1)
+    )
+    assert L.n_reversing_edges > 0
+    one, other = (ip.period_matrix(double(surface)) for surface in (K, L))
+    assert tau_inside_certificate(one, 2j * 0.9 / 1.7)
+    assert tau_inside_certificate(other, 2j * 0.9 / 1.7)
+
+
+def test_double_of_a_closed_surface_is_two_mirror_images():
+    K = ip.DeltaComplex.from_mesh(*noisy_torus(7, 6, 0.1, 1))
+    L = double(K)
+    with pytest.raises(ip.ComplexError, match="2 components"):
+        ip.period_matrix(L)
+    one, mirror = L.components()
+    tau, other = (ip.period_matrix(part) for part in (one, mirror))
+    assert np.array_equal(one.twin, K.twin)
+    assert symplectic_isomorphisms(tau, other, tolerance=1e-9, reversing=True)
+    assert not symplectic_isomorphisms(tau, other, tolerance=1e-9)
+
+
+def test_genus_and_labels():
+    # The double of a surface of genus g with b ≥ 1 boundary loops has genus 2g + b − 1.
+    V, F = noisy_torus(7, 6, 0.1, 1)
+    V = np.concatenate([[[9.0, 9, 9]], V])
+    K = ip.DeltaComplex.from_mesh(V, np.delete(F, [0, 40], axis=0) + 1)
+    L = double(K)
+    check_surface(L)
+    assert L.genus == 3
+    assert np.array_equal(V[L.labels], L.positions)
+    assert L.n_vertices == 2 * K.n_vertices - 6
+
+
+def test_what_is_no_double_is_refused():
+    L = double(annulus_pair())
+    flipped, _ = intrinsic_delaunay(L, ip.cohomology_basis(L))
+    assert flipped is not L
+    for K in (flipped, ip.DeltaComplex.from_mesh(*noisy_torus(5, 5, 0.1, 1))):
+        with pytest.raises(ip.ComplexError, match="is no double"):
+            involution(K)
+    with pytest.raises(ip.ComplexError, match="of 7 faces, is no double"):
+        involution(ip.DeltaComplex.from_lengths(np.ones((7, 3)), np.arange(21).reshape(7, 3)))
+
+
+def test_moebius_band_and_torus_with_a_hole_made_by_others(mesh):
+    for name, genus in (("moebius.obj", 1), ("punctured-torus.obj", 2)):
+        pm = ip.period_matrix(double(ip.DeltaComplex.from_mesh(*mesh(name))))
+        assert pm.genus == genus
+        gamma, J = real_structure(pm), standard_form(genus)
+        assert np.array_equal(gamma @ J @ gamma.T, -J)
