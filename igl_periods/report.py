@@ -189,8 +189,8 @@ def _bound_in_words(pm: PeriodMatrix) -> str:
     return (
         f"Π of this polyhedral surface is known to within {pm.bound:.2g}, relative to its size; no "
         f"entry is off by more than {bounds.max():.2g}. This is a theorem, with an allowance for "
-        "rounding. It is about the surface made of these flat triangles: how well they represent a smooth surface "
-        "is another question, which the bound does not answer."
+        "rounding. It is about the surface made of these flat triangles: how well they represent a "
+        "smooth surface is another question, which the bound does not answer."
     )
 
 
