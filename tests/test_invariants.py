@@ -48,7 +48,8 @@ def six_points(roots: np.ndarray) -> np.ndarray:
 def known_within(bound: float, Pi: np.ndarray) -> ip.PeriodMatrix:
     """A certified period matrix: all energies too large by the same factor."""
     any_surface = ip.period_matrix(square_tiled_surface("omega_1"))
-    energies, no_marking = csr_array((len(energies), any_surface.complex.n_edges), dtype=np.int64)
+    energies = (1 + bound) * energy_matrix(Pi)
+    no_marking = csr_array((2 * len(Pi), any_surface.complex.n_edges))
     pm = replace(any_surface, dirichlet=energies, cocycles=no_marking)
     assert bound <= pm.bound < 2 * bound + 1e-12
     return pm
