@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
+from igl_periods import DeltaComplex
 from igl_periods.surfaces import (
     cyclic_cover,
     lawson_surface,
@@ -74,7 +75,8 @@ def main():
 
 def files():
     """Names and contents of all files."""
-    surfaces = [lawson(), wente(), quintic(), sextic(), klein(), *map(square_tiled, SQUARES)]
+    surfaces = [lawson(), lawson_in_the_sphere(), wente(), quintic(), sextic(), klein()]
+    surfaces += map(square_tiled, SQUARES)
     contents = {name: content for name, content, *_ in surfaces}
     table = [
         f"| `{name}` | {vertices}, {triangles} | {genus} |"
@@ -96,6 +98,17 @@ def lawson():
         + shown(square_tiled_period_matrix("omega_3"), "(i/√3) [[2, −1], [−1, 2]]")
     )
     return "lawson_2_1.off", off(stereographic(V, 2, 1), F), len(V), len(F), 2, text
+
+
+def lawson_in_the_sphere():
+    V, F = lawson_surface(2, 1, 8)
+    K = DeltaComplex.from_mesh(V, F)
+    text = (
+        "The same surface with its lengths in S³ ⊂ R⁴, where it has all of its symmetries: "
+        "`lawson_surface(2, 1, 8)`.\n\n"
+        + shown(square_tiled_period_matrix("omega_3"), "(i/√3) [[2, −1], [−1, 2]]")
+    )
+    return "lawson_2_1_sphere.json", gluing(K), len(V), len(F), 2, text
 
 
 def wente():

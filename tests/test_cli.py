@@ -3,6 +3,7 @@
 import json
 import os
 import pty
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -103,7 +104,8 @@ def test_tolerance_and_degree(capsys):
 
 
 def test_a_reader_who_has_had_enough_is_no_error(torus):
-    command = f"{sys.executable} -m igl_periods.cli compute {torus} --json | head -c 10"
+    python, mesh = shlex.quote(sys.executable), shlex.quote(str(torus))
+    command = f"{python} -m igl_periods.cli compute {mesh} --json | head -c 10"
     done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=True)
     assert done.stderr == ""
 
@@ -209,6 +211,7 @@ def test_stages_are_shown_on_a_terminal_only(torus):
     ("name", "surface"),
     [
         ("lawson_2_1.off", "Lawson xi_{2,1}"),
+        ("lawson_2_1_sphere.json", "Lawson xi_{2,1}"),
         ("omega_3.json", "Lawson xi_{2,1}"),
         ("hyperelliptic_x6_1.json", "Lawson xi_{2,1}"),
         ("klein.json", "Klein"),

@@ -15,6 +15,7 @@ DATA = Path(__file__).parents[1] / "data"
 # (lengths are rounded to ten decimals), else the distance of the mesh from the smooth surface.
 TOLERANCES = {
     "lawson_2_1.off": 2e-3,
+    "lawson_2_1_sphere.json": 1e-8,
     "wente_20x20.obj": 2e-3,
     "hyperelliptic_x5_1.json": 2e-2,
     "hyperelliptic_x6_1.json": 2e-2,
