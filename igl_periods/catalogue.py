@@ -93,7 +93,7 @@ def binomial_period_matrix(n: int) -> Complexes:
     exponents = np.outer(np.arange(1, g + 1), np.arange(2 * g))
     periods = np.exp(2j * np.pi * (exponents % n) / n)
     a, b = np.hsplit(periods @ integer_symplectic_basis(intersections).T, 2)
-    Pi: Complexes = np.linalg.solve(a, b)
+    Pi = np.asarray(np.linalg.solve(a, b), dtype=np.complex128)
     return 0.5 * (Pi + Pi.T)
 
 

@@ -78,8 +78,8 @@ def tube(points: Floats, normals: Floats, radius: float, closed: bool) -> tuple[
         along = np.roll(points, -1, axis=0) - np.roll(points, 1, axis=0)
     else:
         along = np.gradient(points, axis=0)
-    across = _unit(np.cross(along, normals))
-    up = _unit(np.cross(across, along))
+    across = _unit(np.cross(along, normals).astype(np.float64))
+    up = _unit(np.cross(across, along).astype(np.float64))
     angle = 2.0 * np.pi * np.arange(_SIDES) / _SIDES
     circle = np.cos(angle)[:, None] * up[:, None] + np.sin(angle)[:, None] * across[:, None]
     V = (points[:, None] + radius * circle).reshape(-1, 3)

@@ -88,7 +88,8 @@ def form_of_real_periods(pm: PeriodMatrix, periods: ArrayLike) -> Complexes:
     if not np.isfinite(wanted).all():
         raise ValueError("real parts of periods must all be finite: they determine the form.")
     p, q = wanted[: pm.genus], wanted[pm.genus :]
-    imaginary = np.linalg.solve(pm.matrix.imag, pm.matrix.real @ p - q)
+    X, Y = np.asarray(pm.matrix.real, np.float64), np.asarray(pm.matrix.imag, np.float64)
+    imaginary = np.linalg.solve(Y, np.asarray(X @ p - q, np.float64))
     s: Complexes = p + 1j * imaginary
     return s
 
@@ -142,7 +143,7 @@ class _Densities:
     def of(cls, pm: PeriodMatrix) -> _Densities:
         area = face_areas(pm.complex)
         p, q = linear_parts(pm.complex, normalised_differentials(pm))
-        chosen = np.arange(area.size)
+        chosen: NDArray[np.int64] = np.arange(area.size)
         if chosen.size > _SAMPLED_FACES:
             chosen = np.random.default_rng(0).choice(chosen, _SAMPLED_FACES, p=area / area.sum())
             weight = np.full(chosen.size, 1.0 / chosen.size)

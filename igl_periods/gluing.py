@@ -157,7 +157,8 @@ def fans_are_whole(twin: Ints, corner_vertex: Ints, n_vertices: int) -> bool:
     first = np.empty(n_vertices, dtype=np.int64)
     first[corners] = np.arange(flat.size)
     missing = np.bincount(corners, minlength=n_vertices)
-    vertex, corner = np.arange(n_vertices), first
+    vertex: Ints = np.arange(n_vertices)
+    corner: Ints = first
     while vertex.size:
         missing[vertex] -= 1
         corner = next_corner(flat[next_corner(corner, 2)], 2)

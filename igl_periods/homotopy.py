@@ -210,9 +210,9 @@ def _boundary(K: DeltaComplex, trees: TreeCotree) -> Ints:
 
 def _checked_lengths(K: DeltaComplex, edge_lengths: ArrayLike | None) -> Floats:
     if edge_lengths is None:
-        lengths = np.empty(K.n_edges)
-        lengths[K.edge.ravel()] = K.lengths.ravel()
-        return lengths
+        own = np.empty(K.n_edges)
+        own[K.edge.ravel()] = K.lengths.ravel()
+        return own
     lengths = np.asarray(edge_lengths, dtype=np.float64)
     if lengths.shape != (K.n_edges,):
         raise ComplexError(
@@ -248,7 +248,9 @@ def _cotree(K: DeltaComplex, half_edges: Ints) -> Ints:
     rank = np.arange(half_edges.size)
     _, first = np.unique(np.minimum(here, there) * m + np.maximum(here, there), return_index=True)
     first = first[here[first] != there[first]]
-    graph = csr_array((rank[first] + 1.0, (here[first], there[first])), shape=(m, m))
+    # Older versions of SciPy find spanning trees for 32-bit indices only.
+    ends = here[first].astype(np.int32), there[first].astype(np.int32)
+    graph = csr_array((rank[first] + 1.0, ends), shape=(m, m))
     chosen = half_edges[minimum_spanning_tree(graph).data.astype(np.int64) - 1]
     both = np.concatenate([chosen, twin[chosen]])
     tree = csr_array((np.ones(both.size), (both // 3, twin[both] // 3)), shape=(m, m))

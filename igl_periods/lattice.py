@@ -85,7 +85,8 @@ def short_vectors(Y: Floats, bound: float, limit: int = ENUMERATION_LIMIT) -> tu
     """
     n = len(Y)
     R = np.linalg.cholesky(Y[::-1, ::-1])[::-1, ::-1].T  # lower triangular, Y = Rᵀ R
-    vectors, room = np.zeros((1, n), dtype=np.int64), np.full(1, bound * (1 + 1e-9))
+    vectors: Ints = np.zeros((1, n), dtype=np.int64)
+    room: Floats = np.full(1, bound * (1 + 1e-9))
     for i in range(n):
         centre = -(vectors[:, :i] @ R[i, :i]) / R[i, i]
         radius = np.sqrt(room) / R[i, i]
