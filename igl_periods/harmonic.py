@@ -37,6 +37,7 @@ from sksparse.cholmod import CholmodNotPositiveDefiniteError, Factor, analyze
 
 from .delta_complex import DeltaComplex
 from .errors import ComplexError
+from .homology import half_edge_ends
 from .triangles import double_areas
 
 Floats = NDArray[np.float64]
@@ -53,8 +54,8 @@ def edge_ends(K: DeltaComplex) -> tuple[Ints, Ints]:
     forward = np.flatnonzero(K.sign.ravel() > 0)
     edge = K.edge.ravel()[forward]
     tail, head = np.empty((2, K.n_edges), dtype=np.int64)
-    tail[edge] = np.roll(K.corner_vertex, -1, axis=1).ravel()[forward]
-    head[edge] = np.roll(K.corner_vertex, 1, axis=1).ravel()[forward]
+    starts, ends = half_edge_ends(K)
+    tail[edge], head[edge] = starts[forward], ends[forward]
     return tail, head
 
 

@@ -105,6 +105,14 @@ def half_edge_ends(K: DeltaComplex) -> tuple[Ints, Ints]:
     return tail, head
 
 
+def check_cochains(K: DeltaComplex, cochains: csr_array) -> None:
+    """Raise ComplexError unless cochains have one column an edge."""
+    if cochains.shape[1] != K.n_edges:
+        raise ComplexError(
+            f"the cochains have {cochains.shape[1]} columns, but the complex has {K.n_edges} edges."
+        )
+
+
 def cotree_cochains(K: DeltaComplex, trees: TreeCotree) -> csr_array:
     """Crossing numbers of the edges with the loop of faces of each generator; (2g, n_edges) int.
 

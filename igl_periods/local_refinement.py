@@ -33,9 +33,8 @@ from scipy.sparse import csr_array, hstack
 from .delaunay import intrinsic_delaunay
 from .delta_complex import DeltaComplex, cotan_weights
 from .energy_excess import energy_excess
-from .errors import ComplexError
 from .harmonic import dirichlet_matrix, harmonic_potentials
-from .homology import cohomology_basis
+from .homology import check_cochains, cohomology_basis
 from .periods import PeriodMatrix
 from .refinement import split
 from .rounding import LEAST_ALLOWANCE, geometric_allowance
@@ -102,10 +101,7 @@ def insert_barycentres(
     ComplexError
         If ``cochains`` does not have one column an edge.
     """
-    if cochains.shape[1] != K.n_edges:
-        raise ComplexError(
-            f"the cochains have {cochains.shape[1]} columns, but the complex has {K.n_edges} edges."
-        )
+    check_cochains(K, cochains)
     r, m = len(faces), K.n_faces
     child = np.stack([faces, m + np.arange(r), m + r + np.arange(r)], axis=1)
     moved = np.arange(K.twin.size)

@@ -30,7 +30,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
 from .delta_complex import DeltaComplex
-from .errors import ComplexError
+from .homology import check_cochains
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -60,10 +60,7 @@ def split(K: DeltaComplex, cochains: csr_array) -> tuple[DeltaComplex, csr_array
     ComplexError
         If ``cochains`` does not have one column an edge.
     """
-    if cochains.shape[1] != K.n_edges:
-        raise ComplexError(
-            f"the cochains have {cochains.shape[1]} columns, but the complex has {K.n_edges} edges."
-        )
+    check_cochains(K, cochains)
     twin, same = _twins(K)
     edge, first = _edges(K), np.arange(twin.size).reshape(-1, 3) < twin
     sign = np.where(first | same | (twin < 0), 1, -1).astype(np.int8)

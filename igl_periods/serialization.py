@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from .delta_complex import DeltaComplex
 from .errors import MeshError
 from .homology import homology_basis
+from .homotopy import walk_vertices
 from .periods import PeriodMatrix
 
 SCHEMA = 1
@@ -75,8 +76,7 @@ def period_matrix_to_json(pm: PeriodMatrix) -> dict[str, Any]:
 
 def cycles_to_json(K: DeltaComplex) -> dict[str, list[list[int]]]:
     """The canonical cycles as closed walks: the vertices passed, as rows of V."""
-    starts = np.roll(K.corner_vertex, -1, axis=1).ravel()
-    walks = [K.labels[starts[walk]].tolist() for walk in homology_basis(K)]
+    walks = [K.labels[walk_vertices(K, walk)].tolist() for walk in homology_basis(K)]
     g = len(walks) // 2
     return {"a": walks[:g], "b": walks[g:]}
 
