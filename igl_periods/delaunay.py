@@ -43,6 +43,7 @@ _EPS = float(np.finfo(np.float64).eps)
 _ULPS = 8 * _EPS
 _MOST_ROUNDS = 100_000  # and as many as there are edges
 _COCHAINS_AT_ONCE = 32
+_EDGES_AT_ONCE = 8_192
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,6 +58,12 @@ class Flips:
     first_sign: NDArray[np.int8]
     second: Ints
     second_sign: NDArray[np.int8]
+
+    @classmethod
+    def union(cls, portions: list[Flips]) -> Flips:
+        """Flips that share no face, as one round."""
+        columns = zip(*(vars(flips).values() for flips in portions))
+        return cls(*(np.concatenate(column) for column in columns))
 
 
 def intrinsic_delaunay(K: DeltaComplex, cochains: csr_array) -> tuple[DeltaComplex, csr_array]:
@@ -103,9 +110,15 @@ def delaunay_flips(K: DeltaComplex) -> tuple[DeltaComplex, list[Flips]]:
                 "extreme triangles. Remesh them, or compute without flips (delaunay=False)."
             )
         chosen, waiting = mesh.independent(order.permutation(suspects))
-        flips, touched = mesh.flip(chosen)
-        rounds.append(flips)
-        suspects = mesh.bad_edges(_distinct(K.n_edges, touched, waiting))
+        # Neighbours lie close together in memory when edges are taken in their order, and in
+        # portions that the cache holds.
+        chosen = _distinct(K.n_edges, chosen)
+        portions = [
+            mesh.flip(chosen[start : start + _EDGES_AT_ONCE])
+            for start in range(0, chosen.size, _EDGES_AT_ONCE)
+        ]
+        rounds.append(Flips.union([flips for flips, _ in portions]))
+        suspects = mesh.bad_edges(_distinct(K.n_edges, waiting, *(near for _, near in portions)))
     flipped = replace(
         K,
         lengths=mesh.lengths.reshape(-1, 3),
@@ -122,17 +135,37 @@ def transport(cochains: csr_array, rounds: list[Flips]) -> csr_array:
     """Values of closed cochains after the flips; (k, n_edges) sparse int."""
     if not rounds:
         return cochains
-    blocks = []
-    for start in range(0, max(cochains.shape[0], 1), _COCHAINS_AT_ONCE):
-        block = cochains[start : start + _COCHAINS_AT_ONCE].toarray()
-        by_edge = np.ascontiguousarray(block.T)
-        for flips in rounds:
-            by_edge[flips.edge] = (
-                flips.first_sign[:, None] * by_edge[flips.first]
-                + flips.second_sign[:, None] * by_edge[flips.second]
-            )
-        blocks.append(csr_array(by_edge.T))
-    return csr_array(vstack(blocks, format="csr"))
+    portions = [
+        _carried(cochains[start : start + _COCHAINS_AT_ONCE], rounds)
+        for start in range(0, max(cochains.shape[0], 1), _COCHAINS_AT_ONCE)
+    ]
+    return csr_array(vstack(portions, format="csr"))
+
+
+def _carried(cochains: csr_array, rounds: list[Flips]) -> csr_array:
+    """A few cochains after the flips, by a table of their values on the edges they have met."""
+    by_edge = cochains.T.tocsr()
+    met = np.flatnonzero(np.diff(by_edge.indptr))
+    # Row 0 is for all edges on which the cochains are 0.
+    values = np.zeros((met.size + 1, cochains.shape[0]), dtype=np.int64)
+    values[1:] = by_edge[met].toarray()
+    row = np.zeros(cochains.shape[1], dtype=np.int64)
+    row[met] = np.arange(1, met.size + 1)
+    for flips in rounds:
+        first, second = row[flips.first], row[flips.second]
+        near = np.flatnonzero((first > 0) | (second > 0) | (row[flips.edge] > 0))
+        sums = (
+            flips.first_sign[near, None] * values[first[near]]
+            + flips.second_sign[near, None] * values[second[near]]
+        )
+        edge = flips.edge[near]
+        known = row[edge] > 0
+        values[row[edge[known]]] = sums[known]
+        row[edge[~known]] = np.arange(len(values), len(values) + np.count_nonzero(~known))
+        values = np.concatenate([values, sums[~known]])
+    met = np.flatnonzero(row)
+    found = csr_array(values[row[met]].T).tocoo()
+    return csr_array((found.data, (found.row, met[found.col])), shape=cochains.shape)
 
 
 @dataclass(eq=False)

@@ -12,10 +12,11 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.sparse import coo_array
+from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import connected_components
 
 from .errors import ComplexError, MeshError
@@ -44,19 +45,32 @@ def twins_of_faces(faces: Ints, labels: Ints) -> tuple[Ints, Bools]:
     MeshError
         If an edge has more than two faces.
     """
-    tail, head = np.roll(faces, -1, 1).ravel(), np.roll(faces, 1, 1).ravel()
-    key = np.minimum(tail, head) * (faces.max() + 1) + np.maximum(tail, head)
-    order = np.argsort(key)
-    key = key[order]
-    paired = key[1:] == key[:-1]
+    # Indices of 32 bits, where they do, halve the memory traffic of the sort.
+    small = faces.astype(np.int32 if faces.size < np.iinfo(np.int32).max else np.int64)
+    tail, head = np.roll(small, -1, 1).ravel(), np.roll(small, 1, 1).ravel()
+    low, high = np.minimum(tail, head), np.maximum(tail, head)
+    order = _sorted_by(high, labels.size)
+    by_low = _sorted_by(low[order], labels.size)
+    order = order[by_low]
+    low, high = low[order], high[order]
+    paired = (low[1:] == low[:-1]) & (high[1:] == high[:-1])
     if np.any(paired[1:] & paired[:-1]):
-        _raise_crowded_edge(key, order, labels[tail], labels[head])
-    one, other = order[:-1][paired], order[1:][paired]
+        _raise_crowded_edge(low * np.int64(labels.size) + high, order, labels[tail], labels[head])
+    if paired[0::2].all() and not paired[1::2].any():
+        one, other = order[0::2], order[1::2]
+    else:
+        one, other = order[:-1][paired], order[1:][paired]
     twin = np.full(tail.size, -1, dtype=np.int64)
     twin[one], twin[other] = other, one
     same = np.zeros(tail.size, dtype=bool)
     same[one] = same[other] = tail[one] == tail[other]
     return twin.reshape(-1, 3), same.reshape(-1, 3)
+
+
+def _sorted_by(keys: NDArray[np.signedinteger[Any]], n: int) -> NDArray[np.signedinteger[Any]]:
+    """The stable order of keys below n, in linear time: the transpose of a sparse matrix."""
+    rows = np.arange(keys.size + 1, dtype=keys.dtype)
+    return csr_array((rows[:-1], keys, rows), shape=(keys.size, n)).tocsc().data
 
 
 def _raise_crowded_edge(key: Ints, order: Ints, tail: Ints, head: Ints) -> None:
@@ -153,23 +167,26 @@ def fans_are_whole(twin: Ints, corner_vertex: Ints, n_vertices: int) -> bool:
 
     Much faster than :func:`corner_vertices`, where the vertices are known already.
     """
-    flat, corners = twin.ravel(), corner_vertex.ravel()
+    corners = corner_vertex.ravel()
+    half_edge: Ints = np.arange(corners.size)
+    # The corner at the same vertex in the face across the side before it.
+    onward = twin.ravel()[next_corner(half_edge, 2)]
+    onward = next_corner(onward, 2)
     first = np.empty(n_vertices, dtype=np.int64)
-    first[corners] = np.arange(flat.size)
-    missing = np.bincount(corners, minlength=n_vertices)
-    vertex: Ints = np.arange(n_vertices)
-    corner: Ints = first
-    while vertex.size:
-        missing[vertex] -= 1
-        corner = next_corner(flat[next_corner(corner, 2)], 2)
-        going = corner != first[vertex]
-        vertex, corner = vertex[going], corner[going]
-    return not missing.any()
+    first[corners] = half_edge
+    met, corner = 0, first
+    while corner.size:
+        met += corner.size
+        corner = onward[corner]
+        going = corner != first
+        corner, first = corner[going], first[going]
+    return met == corners.size
 
 
 def next_corner(half_edge: Ints, steps: int = 1) -> Ints:
     """The half-edge (or corner) ``steps`` further round in the same face."""
-    return half_edge - half_edge % 3 + (half_edge + steps) % 3
+    corner = half_edge % 3
+    return half_edge + np.where(corner + steps < 3, steps, steps - 3)
 
 
 def components_of(one: Ints, two: Ints, n: int) -> tuple[int, NDArray[np.int32]]:

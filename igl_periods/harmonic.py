@@ -27,9 +27,6 @@ Chen, Davis, Hager, Rajamanickam, "Algorithm 887: CHOLMOD" (2008).
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csc_array, csc_matrix, csr_array
@@ -38,15 +35,12 @@ from sksparse.cholmod import CholmodNotPositiveDefiniteError, Factor, analyze
 from .delta_complex import DeltaComplex
 from .errors import ComplexError
 from .homology import half_edge_ends
-from .triangles import double_areas
+from .linear_forms import LinearForms, blocks, gram_matrix
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 _SOLVES_AT_ONCE = 32
-# Faces or edges handled at once: few enough for the cache, enough for matrix products.
-_FEWEST_AT_ONCE = 2_048
-_NUMBERS_AT_ONCE = 200_000
 
 
 def edge_ends(K: DeltaComplex) -> tuple[Ints, Ints]:
@@ -149,18 +143,7 @@ def dirichlet_matrix(
         Any functions; the harmonic ones give the least energies.
     face_weights : (m,) float, optional
     """
-    k = cochains.shape[0]
-    D = np.zeros((k, k))
-    jumps = _Jumps.of(K, cochains)
-    faces = np.arange(K.n_faces) if face_weights is None else np.flatnonzero(face_weights)
-    for block in _blocks(faces, k):
-        along, across = _gradients(K, jumps, potentials, block)
-        if face_weights is not None:
-            root = np.sqrt(face_weights[block])[:, None]
-            along, across = along * root, across * root
-        D += along.T @ along
-        D += across.T @ across
-    return D
+    return gram_matrix(LinearForms.of(K, cochains, potentials, face_weights))
 
 
 def weighted_energies(
@@ -174,7 +157,7 @@ def weighted_energies(
     D = np.zeros((k, k))
     tail, head = edge_ends(K)
     by_edge = cochains.T.tocsr()
-    for block in _blocks(np.arange(K.n_edges), k):
+    for block in blocks(K.n_edges, k):
         forms = by_edge[block].toarray() + (potentials[head[block]] - potentials[tail[block]])
         D += forms.T @ (weights[block, None] * forms)
     return 0.5 * (D + D.T)
@@ -206,59 +189,3 @@ def _outflow(n: int, tail: Ints, head: Ints, weights: Floats, cochains: csr_arra
     k = cochains.shape[0]
     flux = np.bincount(rows * k + columns, np.concatenate([flow, -flow]), n * k)
     return flux.astype(np.float64, copy=False).reshape(n, k)
-
-
-@dataclass(frozen=True, eq=False)
-class _Jumps:
-    """The values of cochains along sides, where they are not 0, in the order of the faces."""
-
-    face: Ints
-    side: Ints
-    cochain: Ints
-    value: Floats
-
-    @classmethod
-    def of(cls, K: DeltaComplex, cochains: csr_array) -> _Jumps:
-        touched = np.zeros(K.n_edges, dtype=bool)
-        touched[cochains.indices] = True
-        half_edge = np.flatnonzero(touched[K.edge.ravel()])
-        values = cochains.T.tocsr()[K.edge.ravel()[half_edge]].tocoo()
-        h = half_edge[values.row]
-        return cls(h // 3, h % 3, values.col, values.data * K.sign.ravel()[h])
-
-    def add_to(self, differences: Floats, faces: Ints, side: int, sign: int) -> None:
-        """Add ``sign`` times the values along a side of the faces, ascending, to (faces, k)."""
-        start, end = np.searchsorted(self.face, [faces[0], faces[-1] + 1])
-        mine = start + np.flatnonzero(self.side[start:end] == side)
-        row = np.searchsorted(faces, self.face[mine])
-        there = faces[np.minimum(row, faces.size - 1)] == self.face[mine]
-        mine, row = mine[there], row[there]
-        differences[row, self.cochain[mine]] += sign * self.value[mine]
-
-
-def _gradients(
-    K: DeltaComplex, jumps: _Jumps, potentials: Floats, faces: Ints
-) -> tuple[Floats, Floats]:
-    """√area times the components of the gradients along and across side 2; (faces, k) each.
-
-    With corner 0 at the origin, corner 1 at (l, 0) and corner 2 at (x, y), a linear function with
-    differences u01 and u02 has the gradient (u01 / l, (u02 − u01 x / l) / y), and 2 area = l y.
-    """
-    l0, l1, l2 = K.lengths[faces].T
-    height = double_areas(K.lengths[faces]) / l2
-    shear = 0.5 * (1.0 + ((l1 - l0) / l2) * ((l1 + l0) / l2))
-    corners = potentials[K.corner_vertex[faces]]
-    u01, u02 = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    # Side 2 runs from corner 0 to corner 1, side 1 from corner 2 to corner 0.
-    jumps.add_to(u01, faces, 2, 1)
-    jumps.add_to(u02, faces, 1, -1)
-    along = np.sqrt(0.5 * height / l2)[:, None] * u01
-    across = np.sqrt(0.5 * l2 / height)[:, None] * (u02 - shear[:, None] * u01)
-    return along, across
-
-
-def _blocks(items: Ints, k: int) -> Iterator[Ints]:
-    """Items in portions for which arrays of k columns have a good size."""
-    size = max(_FEWEST_AT_ONCE, _NUMBERS_AT_ONCE // max(k, 1))
-    for start in range(0, items.size, size):
-        yield items[start : start + size]

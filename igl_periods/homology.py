@@ -85,7 +85,7 @@ def tree_cotree(K: DeltaComplex, root: int = 0) -> TreeCotree:
     crossable = ~in_tree[K.edge]
     here, there = np.arange(m) // 3, K.twin.ravel() // 3
     open_sides = crossable.ravel()
-    start = np.concatenate([[0], np.cumsum(crossable.sum(axis=1))])
+    start = np.concatenate([[0], np.cumsum(open_sides)[2::3]])
     dual_graph = csr_array(
         (np.ones(start[-1], dtype=np.int8), there[open_sides], start), shape=(K.n_faces,) * 2
     )

@@ -14,6 +14,10 @@ mollification.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import wraps
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -26,8 +30,31 @@ _SMALLEST_SLACK = 5e-15
 # The slack that mollification leaves, and the most it may add, in units of the mean length.
 _MOLLIFIED_SLACK = 1e-13
 _LARGEST_MOLLIFICATION = 1e-6
+# Triangles handled at once: what is computed in between stays in the cache.
+_AT_ONCE = 16_384
 
 
+def _in_blocks(
+    function: Callable[[Floats], NDArray[Any]],
+) -> Callable[[Floats], NDArray[Any]]:
+    """The same function of rows, evaluated on blocks of them."""
+
+    @wraps(function)
+    def evaluated(lengths: Floats) -> NDArray[Any]:
+        first = function(lengths[:_AT_ONCE])
+        if len(lengths) <= _AT_ONCE:
+            return first
+        values = np.empty((len(lengths), *first.shape[1:]), dtype=first.dtype)
+        values[:_AT_ONCE] = first
+        for start in range(_AT_ONCE, len(lengths), _AT_ONCE):
+            block = slice(start, start + _AT_ONCE)
+            values[block] = function(lengths[block])
+        return values
+
+    return evaluated
+
+
+@_in_blocks
 def double_areas(lengths: Floats) -> Floats:
     """Twice the area of each triangle, by Kahan's formula; 0 where it is degenerate.  (m,)."""
     a, b, c = _descending(lengths)
@@ -35,6 +62,7 @@ def double_areas(lengths: Floats) -> Floats:
     return 0.5 * np.sqrt(np.maximum(product, 0.0))
 
 
+@_in_blocks
 def cotangents(lengths: Floats) -> Floats:
     """Cotangents of the angles, ``[f, s]`` at corner ``s``; shape (m, 3).
 
@@ -52,25 +80,31 @@ def cotangents(lengths: Floats) -> Floats:
     return cot
 
 
+@_in_blocks
 def angles(lengths: Floats) -> Floats:
     """Angles in radians, ``[f, s]`` at corner ``s``; shape (m, 3)."""
     return np.arctan2(1.0, cotangents(lengths))
 
 
+@_in_blocks
 def slacks(lengths: Floats) -> Floats:
     """The slack b + c − a ≥ 0 of the triangle inequality, a the longest side; shape (m,)."""
     a, b, c = _descending(lengths)
     return c - (a - b)
 
 
+@_in_blocks
 def is_strict(lengths: Floats) -> NDArray[np.bool_]:
     """Whether the triangle inequality holds with more slack than rounding can hide; shape (m,)."""
-    return slacks(lengths) > _SMALLEST_SLACK * lengths.max(axis=1)
+    a, b, c = _descending(lengths)
+    return c - (a - b) > _SMALLEST_SLACK * a
 
 
+@_in_blocks
 def length_sensitivity(lengths: Floats) -> Floats:
     """The relative change of metric of each triangle per relative change of its sides; (m,)."""
-    return 2.0 * lengths.prod(axis=1) * lengths.sum(axis=1) / double_areas(lengths) ** 2
+    l0, l1, l2 = lengths.T
+    return 2.0 * (l0 * l1 * l2) * (l0 + l1 + l2) / double_areas(lengths) ** 2
 
 
 def mollify(lengths: Floats) -> tuple[Floats, float]:

@@ -44,7 +44,8 @@ def check_finite(positions: Floats, faces: Ints) -> None:
 
 def check_scale(lengths: Floats) -> None:
     """Raise ComplexError unless areas can be computed from the lengths without overflow."""
-    longest = lengths.max(axis=1)
+    l0, l1, l2 = lengths.T
+    longest = np.maximum(np.maximum(l0, l1), l2)
     # Faces that are single points are degenerate, which is another error.
     longest = longest[longest > 0.0]
     if (
@@ -83,7 +84,8 @@ def checked_faces(F: ArrayLike, n_vertices: int | None) -> Ints:
         raise MeshError(f"F refers to vertex {high}, which is no sensible index.")
     # A copy, since the complex keeps it.
     faces = np.array(array, dtype=np.int64, order="C")
-    repeated = (faces == np.roll(faces, 1, 1)).any(axis=1)
+    a, b, c = faces.T
+    repeated = (a == b) | (b == c) | (c == a)
     if repeated.any():
         f = int(np.argmax(repeated))
         raise MeshError(
