@@ -25,6 +25,7 @@ from .equivalence import Isomorphisms as Isomorphisms
 from .equivalence import moduli_distance as moduli_distance
 from .equivalence import symplectic_isomorphisms as symplectic_isomorphisms
 from .errors import ComplexError as ComplexError
+from .errors import MemoryLimitError as MemoryLimitError
 from .errors import MeshError as MeshError
 from .errors import NotASiegelPointError as NotASiegelPointError
 from .form_choice import most_even_form as most_even_form

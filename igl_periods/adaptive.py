@@ -21,23 +21,20 @@ Dörfler, "A convergent adaptive algorithm for Poisson's equation" (1996).
 
 from __future__ import annotations
 
-import os
 import time
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from .delaunay import intrinsic_delaunay
-from .delta_complex import DeltaComplex, cotan_weights
+from .delta_complex import DeltaComplex
 from .energy_excess import williamson_basis
 from .errors import ComplexError
-from .harmonic import dirichlet_matrix as linear_dirichlet_matrix
-from .harmonic import harmonic_potentials
+from .harmonic_energies import linear_energies
 from .high_order import (
     HighOrderForms,
     dirichlet_matrix,
@@ -47,8 +44,8 @@ from .high_order import (
     separate_cones,
 )
 from .local_refinement import insert_barycentres
+from .memory import available_memory, count_unknowns, high_order_memory
 from .periods import PeriodMatrix
-from .rounding import geometric_allowance
 from .stages import logger
 
 Floats = NDArray[np.float64]
@@ -63,8 +60,6 @@ _LEAST_RATIO = 1.05
 # Each round of division treats faces with this part of the excess, and divides the bound by 2.
 _MARKED = 0.8
 _ROUND_RATIO = 2.0
-# Of the physical memory, the part that one attempt may take.
-_MEMORY_SHARE = 0.6
 
 
 class ToleranceWarning(UserWarning):
@@ -128,11 +123,20 @@ class Plan:
     seconds: float
 
 
+@dataclass(frozen=True)
+class Limits:
+    """The most unknowns and bytes that an attempt may take; None where nobody set a limit."""
+
+    unknowns: int | None
+    memory: float | None
+
+
 def period_matrix_within(
     triangulation: Triangulation,
     certify: Certify,
     tolerance: float,
     max_unknowns: int | None = None,
+    max_memory: float | None = None,
 ) -> PeriodMatrix:
     """Compute a period matrix whose certified bound is at most ``tolerance``.
 
@@ -149,7 +153,9 @@ def period_matrix_within(
     tolerance : float
         The bound to reach.
     max_unknowns : int, optional
-        No attempt has more unknowns in its sparse system than this, nor more than memory allows.
+        No attempt has more unknowns in its sparse system than this.
+    max_memory : float, optional
+        No attempt takes more bytes than this, by default more than are available.
 
     Returns
     -------
@@ -169,9 +175,10 @@ def period_matrix_within(
     """
     if not tolerance > 0.0:
         raise ValueError(f"tolerance = {tolerance}: a bound is always positive.")
+    limits = Limits(max_unknowns, max_memory)
     attempts = [_linear_attempt(triangulation, certify)]
     while (best := min(attempts, key=lambda attempt: attempt.bound)).bound > tolerance:
-        plan = _next_plan(attempts, tolerance, max_unknowns)
+        plan = _next_plan(attempts, tolerance, limits)
         outcome = _carried_out(plan, certify, tolerance) if isinstance(plan, Plan) else plan
         if isinstance(outcome, str):
             warnings.warn(
@@ -184,31 +191,10 @@ def period_matrix_within(
     return best.result
 
 
-def count_unknowns(K: DeltaComplex, degree: int) -> int:
-    """Unknowns of the condensed system on a complex whose cone points are separated."""
-    return K.n_vertices + (degree - 1) * K.n_edges
-
-
-def estimated_memory(K: DeltaComplex, degree: int, n_forms: int) -> float:
-    """Bytes that forms of some degree take on a complex whose cone points are separated.
-
-    Bubbles in terms of traces, the entries of the system with their indices, the Cholesky factor
-    of n unknowns with at most about 2 n (p + 1) log₂ n entries, and the forms.
-    """
-    n, traces = count_unknowns(K, degree), 3 * degree
-    extensions = K.n_faces * (degree - 1) ** 2 * traces
-    entries = 5 * K.n_faces * traces * (traces + 1) / 2
-    factor = 2.0 * n * (degree + 1) * np.log2(n + 1)
-    return 8.0 * float(extensions + entries + factor + 4 * n * n_forms)
-
-
 def _linear_attempt(triangulation: Triangulation, certify: Certify) -> Attempt:
     start = time.perf_counter()
     K, cochains = triangulation.complex, triangulation.cochains
-    potentials = harmonic_potentials(K, cotan_weights(K), cochains)
-    D = linear_dirichlet_matrix(K, cochains, potentials)
-    energies = partial(linear_dirichlet_matrix, K, cochains, potentials)
-    result = certify(D, geometric_allowance(K, D, energies))
+    result = certify(*linear_energies(K, cochains))
     seconds = time.perf_counter() - start
     return _logged(Attempt(triangulation, 1, K.n_vertices, seconds, result, np.zeros(0)))
 
@@ -249,7 +235,7 @@ def _logged(attempt: Attempt) -> Attempt:
     return attempt
 
 
-def _next_plan(attempts: list[Attempt], tolerance: float, max_unknowns: int | None) -> Plan | str:
+def _next_plan(attempts: list[Attempt], tolerance: float, limits: Limits) -> Plan | str:
     """The cheapest way to go on, or why there is none."""
     last, rounding = attempts[-1], attempts[-1].result.rounding
     if last.bound < 2.0 * rounding:
@@ -262,7 +248,7 @@ def _next_plan(attempts: list[Attempt], tolerance: float, max_unknowns: int | No
         plans.append(_divided(last, target))
     reasons = []
     for _, plan in sorted(plans, key=lambda costed: costed[0]):
-        reason = _unaffordable(plan, max_unknowns)
+        reason = _unaffordable(plan, limits)
         if reason is None:
             return plan
         reasons.append(reason)
@@ -319,18 +305,15 @@ def _divided(last: Attempt, target: float) -> tuple[float, Plan]:
     return cost, Plan(divided, last.degree, growth * last.seconds)
 
 
-def _unaffordable(plan: Plan, max_unknowns: int | None) -> str | None:
+def _unaffordable(plan: Plan, limits: Limits) -> str | None:
     """Why a plan is too large, if it is."""
     K, cochains = separate_cones(plan.triangulation.complex, plan.triangulation.cochains)
     what = f"degree {plan.degree} on {plan.triangulation.complex.n_faces} faces takes"
     unknowns = count_unknowns(K, plan.degree)
-    if max_unknowns is not None and unknowns > max_unknowns:
-        return f"{what} {unknowns} unknowns, and {max_unknowns} are the limit"
-    needed, memory = estimated_memory(K, plan.degree, cochains.shape[0]), _physical_memory()
-    if needed > _MEMORY_SHARE * memory:
-        return f"{what} about {needed / 1e9:.1f} GB of the {memory / 1e9:.1f} GB of memory"
+    if limits.unknowns is not None and unknowns > limits.unknowns:
+        return f"{what} {unknowns} unknowns, and {limits.unknowns} are the limit"
+    needed = high_order_memory(K, plan.degree, cochains.shape[0])
+    memory = available_memory() if limits.memory is None else limits.memory
+    if needed > memory:
+        return f"{what} about {needed / 1e9:.2g} GB of memory, and there are {memory / 1e9:.2g}"
     return None
-
-
-def _physical_memory() -> float:
-    return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))

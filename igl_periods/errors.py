@@ -14,3 +14,7 @@ class ComplexError(ValueError):
 
 class NotASiegelPointError(ValueError):
     """A matrix outside the Siegel upper half-space: asymmetric, or Im not positive definite."""
+
+
+class MemoryLimitError(ValueError):
+    """A computation that would take more memory than there is, or than it was allowed."""

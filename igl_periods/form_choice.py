@@ -23,7 +23,6 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.linalg
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import minimize
 
 from .differentials import normalised_differentials
 from .face_forms import face_areas, linear_parts
@@ -169,6 +168,8 @@ class _Densities:
         g = len(self.basis)
         starts = np.random.default_rng(0).normal(size=(_STARTS, 2 * g))
         promising = sorted(starts, key=lambda start: self.unevenness(start)[0])[:_DESCENTS]
+        from scipy.optimize import minimize  # slow to import, and seldom needed
+
         results = [
             minimize(self.unevenness, start, jac=True, method="L-BFGS-B") for start in promising
         ]

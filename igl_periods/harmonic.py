@@ -29,27 +29,31 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import sparse
 from scipy.sparse import csc_array, csc_matrix, csr_array
 from sksparse.cholmod import CholmodNotPositiveDefiniteError, Factor, analyze
 
 from .delta_complex import DeltaComplex
 from .errors import ComplexError
-from .homology import half_edge_ends
-from .linear_forms import LinearForms, blocks, gram_matrix
+from .gluing import next_corner
+from .linear_forms import Jumps, LinearForms, WeightedFaces, blocks, gram_matrix
+from .memory import release_freed_memory
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 _SOLVES_AT_ONCE = 32
+# From so many unknowns on, memory is put in order before it is filled.
+_LARGE = 100_000
 
 
 def edge_ends(K: DeltaComplex) -> tuple[Ints, Ints]:
     """Vertices at which each edge starts and ends; two arrays of shape (n_edges,)."""
     forward = np.flatnonzero(K.sign.ravel() > 0)
     edge = K.edge.ravel()[forward]
+    corners = K.corner_vertex.ravel()
     tail, head = np.empty((2, K.n_edges), dtype=np.int64)
-    starts, ends = half_edge_ends(K)
-    tail[edge], head[edge] = starts[forward], ends[forward]
+    tail[edge], head[edge] = corners[next_corner(forward)], corners[next_corner(forward, 2)]
     return tail, head
 
 
@@ -61,7 +65,7 @@ def laplacian(K: DeltaComplex, weights: Floats) -> csc_array:
     weights : (n_edges,) float
         ρ, for instance :func:`igl_periods.delta_complex.cotan_weights`.
     """
-    lower = _lower_laplacian(K.n_vertices, *edge_ends(K), weights, 0)
+    lower = lower_laplacian(K.n_vertices, *edge_ends(K), weights, 0)
     strict = lower.copy()
     strict.setdiag(0.0)
     return csc_array(lower + strict.T)
@@ -86,16 +90,27 @@ def harmonic_potentials(K: DeltaComplex, weights: Floats, cochains: csr_array) -
     ComplexError
         If the weights define no positive definite energy.
     """
-    k = cochains.shape[0]
-    potentials = np.zeros((K.n_vertices, k))
-    if K.n_vertices == 1 or k == 0:
-        return potentials
+    if K.n_vertices == 1 or cochains.shape[0] == 0:
+        return np.zeros((K.n_vertices, cochains.shape[0]))
     tail, head = edge_ends(K)
-    factor = _factored(K.n_vertices, tail, head, weights)
+    sources = outflow(K.n_vertices, tail, head, weights, cochains)
+    return solutions(factorised(grounded_laplacian(K, weights)), sources)
+
+
+def solutions(factor: Factor, sources: csc_array) -> Floats:
+    """The functions f, 0 at vertex 0, with L f = ``sources`` elsewhere.
+
+    Parameters
+    ----------
+    factor : Factor
+        Of the Laplacian without row and column 0.
+    sources : (n_vertices, k) sparse float
+    """
+    n, k = sources.shape
+    potentials = np.zeros((n, k))
     for start in range(0, k, _SOLVES_AT_ONCE):
         columns = slice(start, min(start + _SOLVES_AT_ONCE, k))
-        flux = _outflow(K.n_vertices, tail, head, weights, cochains[columns])
-        potentials[1:, columns] = factor(flux[1:])
+        potentials[1:, columns] = factor(sources[1:, columns].toarray(order="F"))
     return potentials
 
 
@@ -107,22 +122,27 @@ def factored_laplacian(K: DeltaComplex, weights: Floats) -> Factor:
     ComplexError
         If the weights define no positive definite energy.
     """
-    return _factored(K.n_vertices, *edge_ends(K), weights)
+    return factorised(grounded_laplacian(K, weights))
 
 
-def _factored(n: int, tail: Ints, head: Ints, weights: Floats) -> Factor:
-    grounded = _lower_laplacian(n, tail, head, weights, 1)
+def factorised(grounded: csc_matrix) -> Factor:
+    """The Cholesky factor of a grounded Laplacian, as :func:`factored_laplacian`."""
+    tidy = release_freed_memory if grounded.shape[0] > _LARGE else lambda: None
+    tidy()
+    # Supernodal is L Lᵀ, which fails on matrices that are not positive definite; the simplicial
+    # L D Lᵀ would go on.
+    factor = analyze(grounded, mode="supernodal", ordering_method="amd")
+    tidy()
     try:
-        # Supernodal is L Lᵀ, which fails on matrices that are not positive definite; the
-        # simplicial L D Lᵀ would go on.
-        factor = analyze(grounded, mode="supernodal", ordering_method="amd")
         factor.cholesky_inplace(grounded)
     except CholmodNotPositiveDefiniteError as error:
+        weights = -sparse.tril(grounded, -1).data
         raise ComplexError(
             "the weights define no positive definite energy: the Laplacian is not positive "
-            f"definite ({np.count_nonzero(weights < 0)} weights are negative, the least is "
-            f"{weights.min():.3g}; {np.count_nonzero(weights == 0)} are zero). With cotangent "
-            "weights this means that triangles are too extreme for double precision."
+            f"definite (without vertex 0, {np.count_nonzero(weights < 0)} weights between vertices "
+            f"are negative, the least is {weights.min(initial=0.0):.3g}; "
+            f"{np.count_nonzero(weights == 0)} are zero). With cotangent weights this means that "
+            "triangles are too extreme for double precision."
         ) from error
     return factor
 
@@ -143,7 +163,8 @@ def dirichlet_matrix(
         Any functions; the harmonic ones give the least energies.
     face_weights : (m,) float, optional
     """
-    return gram_matrix(LinearForms.of(K, cochains, potentials, face_weights))
+    faces = WeightedFaces.of(K, face_weights)
+    return gram_matrix(LinearForms(faces, Jumps.of(K, cochains, face_weights), potentials))
 
 
 def weighted_energies(
@@ -163,8 +184,21 @@ def weighted_energies(
     return 0.5 * (D + D.T)
 
 
-def _lower_laplacian(n: int, tail: Ints, head: Ints, weights: Floats, first: int) -> csc_matrix:
-    """Lower triangle of dᵀ ρ d, from row and column ``first`` on; CHOLMOD reads no more."""
+def grounded_laplacian(K: DeltaComplex, weights: Floats) -> csc_matrix:
+    """Lower triangle of the Laplacian without row and column 0; CHOLMOD reads no more."""
+    return lower_laplacian(K.n_vertices, *edge_ends(K), weights, 1)
+
+
+def lower_laplacian(n: int, tail: Ints, head: Ints, weights: Floats, first: int) -> csc_matrix:
+    """Lower triangle of dᵀ ρ d, from row and column ``first`` on.
+
+    Parameters
+    ----------
+    n : int
+        Number of vertices.
+    tail, head : (n_edges,) int
+        :func:`edge_ends`.
+    """
     low, high = np.minimum(tail, head), np.maximum(tail, head)
     # A loop has no difference of f along it, hence no place in the Laplacian.
     if np.any(low == high):
@@ -174,18 +208,19 @@ def _lower_laplacian(n: int, tail: Ints, head: Ints, weights: Floats, first: int
     if first > 0:
         inner = low >= first
         low, high, weights = low[inner], high[inner], weights[inner]
-    rows = np.concatenate([high, np.arange(first, n)]) - first
-    columns = np.concatenate([low, np.arange(first, n)]) - first
+    index = np.int32 if n < np.iinfo(np.int32).max else np.int64
+    all_vertices = np.arange(first, n, dtype=index)
+    rows = np.concatenate([high.astype(index), all_vertices]) - first
+    columns = np.concatenate([low.astype(index), all_vertices]) - first
     values = np.concatenate([-weights, diagonal[first:]])
     return csc_matrix((values, (rows, columns)), shape=(n - first, n - first))
 
 
-def _outflow(n: int, tail: Ints, head: Ints, weights: Floats, cochains: csr_array) -> Floats:
-    """−dᵀ ρ c for each cochain, as columns; (n, k)."""
+def outflow(n: int, tail: Ints, head: Ints, weights: Floats, cochains: csr_array) -> csc_array:
+    """−dᵀ ρ c for each cochain, as columns; (n, k) sparse."""
     support = cochains.tocoo()
     flow = weights[support.col] * support.data
     rows = np.concatenate([tail[support.col], head[support.col]])
     columns = np.concatenate([support.row, support.row])
-    k = cochains.shape[0]
-    flux = np.bincount(rows * k + columns, np.concatenate([flow, -flow]), n * k)
-    return flux.astype(np.float64, copy=False).reshape(n, k)
+    values = np.concatenate([flow, -flow])
+    return csc_array((values, (rows, columns)), shape=(n, cochains.shape[0]))

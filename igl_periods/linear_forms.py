@@ -20,6 +20,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,48 +38,49 @@ _NUMBERS_AT_ONCE = 100_000
 
 
 @dataclass(frozen=True, eq=False)
-class LinearForms:
-    """Forms c + df on some faces, each face with a weight.
+class WeightedFaces:
+    """Some faces of a surface, each counted with a weight.
 
     Attributes
     ----------
     lengths : (m, 3) float
-        Sides of the faces.
     corner_vertex : (m, 3) int
+        Of 32 bits where they do.
     scale : (m,) float or None
         Root of the weight of each face; None where all weights are 1.
+    """
+
+    lengths: Floats
+    corner_vertex: NDArray[Any]
+    scale: Floats | None = None
+
+    @classmethod
+    def of(cls, K: DeltaComplex, weights: Floats | None = None) -> WeightedFaces:
+        """All faces, or those of positive weight; weights (m,)."""
+        index = np.int32 if K.n_vertices < np.iinfo(np.int32).max else np.int64
+        if weights is None:
+            return cls(K.lengths, K.corner_vertex.astype(index))
+        faces = np.flatnonzero(weights)
+        corner_vertex = K.corner_vertex[faces].astype(index)
+        return cls(K.lengths[faces], corner_vertex, np.sqrt(weights[faces]))
+
+
+@dataclass(frozen=True, eq=False)
+class LinearForms:
+    """Forms c + df on some faces.
+
+    Attributes
+    ----------
+    faces : WeightedFaces
     jumps : Jumps
-        Values of the cochains along the sides.
+        Values of the cochains along the sides of the faces.
     potentials : (n_vertices, k) float
         The functions f.
     """
 
-    lengths: Floats
-    corner_vertex: Ints
-    scale: Floats | None
+    faces: WeightedFaces
     jumps: Jumps
     potentials: Floats
-
-    @classmethod
-    def of(
-        cls,
-        K: DeltaComplex,
-        cochains: csr_array,
-        potentials: Floats,
-        face_weights: Floats | None = None,
-    ) -> LinearForms:
-        """The forms on all faces, or on those of positive weight."""
-        jumps = Jumps.of(K, cochains)
-        if face_weights is None:
-            return cls(K.lengths, K.corner_vertex, None, jumps, potentials)
-        faces = np.flatnonzero(face_weights)
-        return cls(
-            K.lengths[faces],
-            K.corner_vertex[faces],
-            np.sqrt(face_weights[faces]),
-            jumps.on(faces),
-            potentials,
-        )
 
     @property
     def n_forms(self) -> int:
@@ -90,19 +92,19 @@ class LinearForms:
 
         First the components along side 2 of each face, then those across it.
         """
-        l0, l1, l2 = self.lengths[block].T
-        height = double_areas(self.lengths[block]) / l2
+        l0, l1, l2 = self.faces.lengths[block].T
+        height = double_areas(self.faces.lengths[block]) / l2
         # Differences of lengths first: that keeps digits on thin triangles.
         shear = 0.5 * (1.0 + ((l1 - l0) / l2) * ((l1 + l0) / l2))
-        at_0, at_1, at_2 = (self.potentials[corner] for corner in self.corner_vertex[block].T)
+        at_0, at_1, at_2 = (self.potentials[corner] for corner in self.faces.corner_vertex[block].T)
         both = np.empty((2, *at_0.shape))
         u01, u02 = np.subtract(at_1, at_0, out=both[0]), np.subtract(at_2, at_0, out=both[1])
         # Side 2 runs from corner 0 to corner 1, side 1 from corner 2 to corner 0.
         self.jumps.add_to(u01, block.start, 2, 1)
         self.jumps.add_to(u02, block.start, 1, -1)
         along, across = np.sqrt(0.5 * height / l2), np.sqrt(0.5 * l2 / height)
-        if self.scale is not None:
-            along, across = along * self.scale[block], across * self.scale[block]
+        if self.faces.scale is not None:
+            along, across = along * self.faces.scale[block], across * self.faces.scale[block]
         u02 -= shear[:, None] * u01
         u01 *= along[:, None]
         u02 *= across[:, None]
@@ -112,7 +114,7 @@ class LinearForms:
 def gram_matrix(forms: LinearForms) -> Floats:
     """Energies of the forms, ∫ ω_i ∧ *ω_j; (k, k) symmetric."""
     D = np.zeros((forms.n_forms, forms.n_forms))
-    for block in blocks(len(forms.lengths), forms.n_forms):
+    for block in blocks(len(forms.faces.lengths), forms.n_forms):
         X = forms.gradients(block)
         D += X.T @ X
     return D
@@ -121,7 +123,7 @@ def gram_matrix(forms: LinearForms) -> Floats:
 def mutual_energies(one: LinearForms, two: LinearForms) -> Floats:
     """Energies ∫ ω_i ∧ *η_j of two families of forms on the same faces; (k, l)."""
     D = np.zeros((one.n_forms, two.n_forms))
-    for block in blocks(len(one.lengths), max(one.n_forms, two.n_forms)):
+    for block in blocks(len(one.faces.lengths), max(one.n_forms, two.n_forms)):
         D += one.gradients(block).T @ two.gradients(block)
     return D
 
@@ -136,20 +138,27 @@ class Jumps:
     value: Floats
 
     @classmethod
-    def of(cls, K: DeltaComplex, cochains: csr_array) -> Jumps:
-        """The values of (k, n_edges) sparse cochains along the sides of all faces."""
+    def of(cls, K: DeltaComplex, cochains: csr_array, weights: Floats | None = None) -> Jumps:
+        """The values of (k, n_edges) sparse cochains on :class:`WeightedFaces` ``.of(K, weights)``.
+
+        Faces are numbered as there.
+        """
         touched = np.zeros(K.n_edges, dtype=bool)
         touched[cochains.indices] = True
         half_edge = np.flatnonzero(touched[K.edge.ravel()])
+        place = half_edge // 3
+        if weights is not None:
+            half_edge = half_edge[weights[place] != 0.0]
+            place = (np.cumsum(weights != 0.0) - 1)[half_edge // 3]
         values = cochains.T.tocsr()[K.edge.ravel()[half_edge]].tocoo()
         h = half_edge[values.row]
-        return cls(h // 3, h % 3, values.col, values.data * K.sign.ravel()[h])
+        return cls(place[values.row], h % 3, values.col, values.data * K.sign.ravel()[h])
 
-    def on(self, faces: Ints) -> Jumps:
-        """Those on some faces, ascending, numbered anew."""
-        place = np.searchsorted(faces, self.face)
-        mine = np.flatnonzero(np.r_[faces, -1][place] == self.face)
-        return Jumps(place[mine], self.side[mine], self.cochain[mine], self.value[mine])
+    def of_cochains(self, columns: slice) -> Jumps:
+        """Those of some of the cochains, numbered anew."""
+        mine = (self.cochain >= columns.start) & (self.cochain < columns.stop)
+        cochain = self.cochain[mine] - columns.start
+        return Jumps(self.face[mine], self.side[mine], cochain, self.value[mine])
 
     def add_to(self, differences: Floats, start: int, side: int, sign: int) -> None:
         """Add ``sign`` times the values along a side of the faces from ``start`` on, (faces, k)."""

@@ -20,13 +20,15 @@ from scipy.sparse import csr_array
 from . import high_order
 from .adaptive import Triangulation, period_matrix_within
 from .delaunay import intrinsic_delaunay
-from .delta_complex import DeltaComplex, cotan_weights, extrinsic_weights
+from .delta_complex import DeltaComplex, extrinsic_weights
 from .errors import ComplexError, MeshError
-from .harmonic import dirichlet_matrix, harmonic_potentials, weighted_energies
-from .high_order import high_order_forms
+from .harmonic import factorised, harmonic_potentials, weighted_energies
+from .harmonic_energies import harmonic_energies, harmonic_problem
+from .high_order import high_order_forms, separate_cones
 from .homology import cochains_and_basis
+from .memory import check_faces, check_high_order, room_for_forms
 from .periods import PeriodMatrix
-from .rounding import LEAST_ALLOWANCE, congruence, geometric_allowance
+from .rounding import LEAST_ALLOWANCE, congruence
 from .stages import stage
 from .validation import check_equal_when_glued
 
@@ -42,6 +44,7 @@ def period_matrix(
     degree: int = 1,
     tolerance: float | None = None,
     max_unknowns: int | None = None,
+    max_memory: float | None = None,
 ) -> PeriodMatrix:
     """Compute the period matrix of a closed, oriented, connected polyhedral surface.
 
@@ -65,7 +68,11 @@ def period_matrix(
     tolerance : float, optional
         Raise the degree, and divide faces where that is cheaper, until ``bound`` is at most this.
     max_unknowns : int, optional
-        With ``tolerance``: solve no system with more unknowns, nor one that exceeds the memory.
+        With ``tolerance``: solve no system with more unknowns.
+    max_memory : float, optional
+        Bytes that the computation may take; by default what is available.  Where the functions of
+        all forms have no room at once, which is a matter of high genus, they are computed in
+        portions.
 
     Returns
     -------
@@ -79,6 +86,8 @@ def period_matrix(
     ComplexError
         If the surface is not closed, oriented and connected, its triangles are too degenerate, or
         the weights define no positive definite energy.
+    MemoryLimitError
+        If the computation would take more memory than it may.
     ValueError
         If an option has no such value, or options contradict each other: extrinsic weights have
         degree 1 and no bound, and a tolerance chooses the degree.
@@ -98,19 +107,27 @@ def period_matrix(
     """
     _check_options(weights, degree, tolerance)
     K = as_complex(surface, F)
+    room = room_for_forms(K, max_memory)
     if weights == "extrinsic":
         return _uncertified(K, extrinsic_weights(K))
     with stage("homology"):
         cochains, T = cochains_and_basis(K)
-    flipped, carried = K, cochains
-    if delaunay:
-        with stage("Delaunay flips"):
-            flipped, carried = intrinsic_delaunay(K, cochains)
     certify = partial(_certified, K, cochains, T)
-    if tolerance is None:
-        return certify(*_energies(flipped, carried, degree))
-    where = Triangulation(flipped, carried, T.astype(np.int64))
-    return period_matrix_within(where, certify, tolerance, max_unknowns)
+    if tolerance is not None:
+        where = Triangulation(*_triangulated(K, cochains, delaunay), T.astype(np.int64))
+        return period_matrix_within(where, certify, tolerance, max_unknowns, max_memory)
+    if degree > 1:
+        separated = separate_cones(*_triangulated(K, cochains, delaunay))
+        check_high_order(separated[0], degree, 2 * K.genus, max_memory)
+        return certify(*_high_order(*separated, degree))
+    # Nothing keeps the flipped complex while its Laplacian is factored, nor this one afterwards:
+    # the factor takes the memory of all of them.
+    laplacian, problem = harmonic_problem(*_triangulated(K, cochains, delaunay))
+    with stage("factorisation"):
+        factor = factorised(laplacian) if laplacian.nnz else None
+        del laplacian
+    with stage("harmonic forms"):
+        return certify(*harmonic_energies(problem, factor, room))
 
 
 def period_matrix_from_weights(rho: ArrayLike, twin: ArrayLike) -> PeriodMatrix:
@@ -154,6 +171,7 @@ def as_complex(surface: Any, F: ArrayLike | None = None) -> DeltaComplex:
         surface, F = np.asarray(surface.vertices), getattr(surface, faces, None)
     if F is None:
         raise MeshError("faces are missing: call period_matrix(V, F), or period_matrix(K).")
+    check_faces(len(np.asarray(F)))
     with stage("surface"):
         return DeltaComplex.from_mesh(surface, np.asarray(F))
 
@@ -171,20 +189,23 @@ def _check_options(weights: str, degree: int, tolerance: float | None) -> None:
         raise ValueError("a tolerance chooses the degree: leave one of the two away.")
 
 
-def _energies(K: DeltaComplex, cochains: csr_array, degree: int) -> tuple[Floats, float]:
+def _triangulated(
+    K: DeltaComplex, cochains: csr_array, delaunay: bool
+) -> tuple[DeltaComplex, csr_array]:
+    """The triangulation on which forms are computed, and the cochains there."""
+    if not delaunay:
+        return K, cochains
+    with stage("Delaunay flips"):
+        return intrinsic_delaunay(K, cochains)
+
+
+def _high_order(K: DeltaComplex, cochains: csr_array, degree: int) -> tuple[Floats, float]:
     """Dirichlet matrix of the forms of some degree, and what rounding can change in it."""
-    if degree > 1:
-        with stage(f"forms of degree {degree}"):
-            forms = high_order_forms(K, cochains, degree)
-        with stage("energies"):
-            D = high_order.dirichlet_matrix(forms)
-            return D, high_order.rounding_allowance(forms, D)
-    with stage("harmonic forms"):
-        potentials = harmonic_potentials(K, cotan_weights(K), cochains)
+    with stage(f"forms of degree {degree}"):
+        forms = high_order_forms(K, cochains, degree)
     with stage("energies"):
-        energies = partial(dirichlet_matrix, K, cochains, potentials)
-        D = energies()
-        return D, geometric_allowance(K, D, energies)
+        D = high_order.dirichlet_matrix(forms)
+        return D, high_order.rounding_allowance(forms, D)
 
 
 def _certified(

@@ -37,7 +37,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq
 
 from .delta_complex import DeltaComplex
 from .equivalence import symplectic_isomorphisms
@@ -46,7 +45,6 @@ from .periods import PeriodMatrix
 from .pipeline import period_matrix
 from .rounding import LEAST_ALLOWANCE
 from .stages import logger
-from .surfaces.tori import periodic_grid
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -138,6 +136,7 @@ def sampled_torus(immersion: Callable[[Floats, Floats], Floats], aspect: float =
     aspect : float
         The mesh for n has n vertices in the direction of u and ``round(aspect n)`` in that of v.
     """
+    from .surfaces.tori import periodic_grid  # all surfaces together are slow to import
 
     def mesh(n: int) -> Mesh:
         m = max(round(aspect * n), 3)
@@ -198,6 +197,8 @@ def _order(sizes: Sequence[int], first: Complexes, second: Complexes) -> float |
     parallel = np.linalg.norm(second - kappa * first) < 0.5 * np.linalg.norm(second)
     if not parallel or excess(_LEAST_ORDER) * excess(_LARGEST_ORDER) > 0.0:
         return None
+    from scipy.optimize import brentq  # slow to import, and seldom needed
+
     return float(brentq(excess, _LEAST_ORDER, _LARGEST_ORDER))
 
 

@@ -21,9 +21,7 @@ import tables
 
 import igl_periods as ip
 from igl_periods.delaunay import intrinsic_delaunay
-from igl_periods.delta_complex import cotan_weights
-from igl_periods.harmonic import dirichlet_matrix as linear_dirichlet_matrix
-from igl_periods.harmonic import harmonic_potentials
+from igl_periods.harmonic_energies import linear_energies
 from igl_periods.high_order import (
     dirichlet_matrix,
     flat_elements,
@@ -33,7 +31,7 @@ from igl_periods.high_order import (
     separate_cones,
 )
 from igl_periods.refinement import split
-from igl_periods.rounding import LEAST_ALLOWANCE, geometric_allowance
+from igl_periods.rounding import LEAST_ALLOWANCE
 from igl_periods.surfaces import square_tiled_surface
 
 METHODS = {
@@ -104,13 +102,6 @@ def linear(K, cochains):
         if step:
             K, cochains = split(K, cochains)
         yield step, K.n_vertices, partial(linear_energies, K, cochains)
-
-
-def linear_energies(K, cochains):
-    potentials = harmonic_potentials(K, cotan_weights(K), cochains)
-    energies = partial(linear_dirichlet_matrix, K, cochains, potentials)
-    D = energies()
-    return D, geometric_allowance(K, D, energies)
 
 
 def flat(K, cochains):

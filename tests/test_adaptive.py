@@ -14,14 +14,13 @@ from igl_periods.adaptive import (
     Attempt,
     ToleranceWarning,
     Triangulation,
-    count_unknowns,
-    estimated_memory,
     period_matrix_within,
 )
 from igl_periods.delaunay import intrinsic_delaunay
 from igl_periods.energy_excess import williamson_basis
 from igl_periods.high_order import dirichlet_matrix, energy_excess, high_order_forms
 from igl_periods.homology import cochains_and_basis
+from igl_periods.memory import count_unknowns, high_order_memory
 from igl_periods.rounding import LEAST_ALLOWANCE, congruence
 from igl_periods.surfaces.square_tiled import glued_rectangles, origami, square_tiled_surface
 from igl_periods.symplectic import williamson
@@ -34,7 +33,7 @@ def thin_L(width):
     return glued_rectangles([(1.0, width), (1.3, width), (1.0, 2 * width)], L_GLUING)
 
 
-def within(K, tolerance, max_unknowns=None):
+def within(K, tolerance, **limits):
     cochains, T = cochains_and_basis(K)
     flipped, carried = intrinsic_delaunay(K, cochains)
 
@@ -43,9 +42,7 @@ def within(K, tolerance, max_unknowns=None):
         cocycles = csr_array(csr_array(T.astype(np.int64)) @ cochains)
         return ip.PeriodMatrix(D, True, cocycles, K, max(LEAST_ALLOWANCE, allowance + loss))
 
-    return period_matrix_within(
-        Triangulation(flipped, carried, T), certify, tolerance, max_unknowns
-    )
+    return period_matrix_within(Triangulation(flipped, carried, T), certify, tolerance, **limits)
 
 
 ASYMMETRIC = origami([1, 2, 0, 4, 3], [3, 1, 4, 0, 2])
@@ -127,10 +124,13 @@ def test_too_few_unknowns():
 
 def test_too_little_memory(monkeypatch):
     K = square_tiled_surface("omega_1")
-    monkeypatch.setattr(adaptive, "_physical_memory", lambda: 4e6)
-    with pytest.warns(ToleranceWarning, match=r"takes about 0.0 GB of the 0.0 GB of memory"):
-        pm = within(K, 1e-12)
+    message = r"takes about 0.00\d+ GB of memory, and there are 0.0024"
+    with pytest.warns(ToleranceWarning, match=message):
+        pm = within(K, 1e-12, max_memory=2.4e6)
     assert 1e-12 < pm.bound < 1e-3
+    monkeypatch.setattr(adaptive, "available_memory", lambda: 2.4e6)
+    with pytest.warns(ToleranceWarning, match=message):
+        assert within(K, 1e-12).bound == pm.bound
 
 
 def test_highest_degree(monkeypatch):
@@ -190,5 +190,5 @@ def test_estimates_of_size():
         forms = high_order_forms(K, ip.cohomology_basis(K), degree)
         assert count_unknowns(K, degree) == len(forms.traces)
         held = sum(extension.nbytes for extension in forms.extensions) + forms.traces.nbytes
-        assert estimated_memory(K, degree, 4) > held
-    assert estimated_memory(K, 12, 4) > 8 * estimated_memory(K, 4, 4)
+        assert high_order_memory(K, degree, 4) > held
+    assert high_order_memory(K, 12, 4) > 8 * high_order_memory(K, 4, 4)

@@ -12,10 +12,13 @@ Wente's tori                 ``wente_torus``
 Lawson's minimal surfaces    ``lawson_surface``, ``lawson_surface_jittered``,
                              ``lawson_surface_voronoi``, ``lawson_surface_poor``, ``stereographic``
 cyclic covers of the sphere  ``cyclic_cover``
+very high genus              ``thickened_lattice``, ``menger_sponge``, ``voxel_surface``
 ===========================  ======================================================================
 """
 
 from .cyclic_covers import cyclic_cover as cyclic_cover
+from .lattices import menger_sponge as menger_sponge
+from .lattices import thickened_lattice as thickened_lattice
 from .lawson import lawson_sides as lawson_sides
 from .lawson import lawson_surface as lawson_surface
 from .lawson import stereographic as stereographic
@@ -36,6 +39,7 @@ from .subdivision import subdivide as subdivide
 from .tori import flat_torus as flat_torus
 from .tori import torus_of_revolution as torus_of_revolution
 from .tori import torus_of_revolution_modulus as torus_of_revolution_modulus
+from .voxels import voxel_surface as voxel_surface
 from .wente import wente_immersion as wente_immersion
 from .wente import wente_modulus as wente_modulus
 from .wente import wente_periods as wente_periods
