@@ -32,6 +32,7 @@ from .form_choice import most_even_form as most_even_form
 from .half_space import siegel_distance as siegel_distance
 from .half_space import siegel_transform as siegel_transform
 from .hodge import hodge_decomposition as hodge_decomposition
+from .holomorphic import harmonic_form_blocks as harmonic_form_blocks
 from .holomorphic import harmonic_forms as harmonic_forms
 from .holomorphic import holomorphic_forms as holomorphic_forms
 from .holomorphic import symplectic_mean_forms as symplectic_mean_forms

@@ -147,7 +147,7 @@ def _carried(cochains: csr_array, rounds: list[Flips]) -> csr_array:
     by_edge = cochains.T.tocsr()
     met = np.flatnonzero(np.diff(by_edge.indptr))
     # Row 0 is for all edges on which the cochains are 0.
-    values = np.zeros((met.size + 1, cochains.shape[0]), dtype=np.int64)
+    values = np.zeros((met.size + 1, cochains.shape[0]), dtype=cochains.dtype)
     values[1:] = by_edge[met].toarray()
     row = np.zeros(cochains.shape[1], dtype=np.int64)
     row[met] = np.arange(1, met.size + 1)

@@ -90,32 +90,32 @@ def harmonic_potentials(K: DeltaComplex, weights: Floats, cochains: csr_array) -
     ComplexError
         If the weights define no positive definite energy.
     """
-    if K.n_vertices == 1 or cochains.shape[0] == 0:
-        return np.zeros((K.n_vertices, cochains.shape[0]))
     tail, head = edge_ends(K)
     sources = outflow(K.n_vertices, tail, head, weights, cochains)
-    return solutions(factorised(grounded_laplacian(K, weights)), sources)
+    return solutions(factored_laplacian(K, weights), sources)
 
 
-def solutions(factor: Factor, sources: csc_array) -> Floats:
+def solutions(factor: Factor | None, sources: csc_array) -> Floats:
     """The functions f, 0 at vertex 0, with L f = ``sources`` elsewhere.
 
     Parameters
     ----------
-    factor : Factor
-        Of the Laplacian without row and column 0.
+    factor : Factor or None
+        Of the grounded Laplacian, :func:`factorised`.
     sources : (n_vertices, k) sparse float
     """
     n, k = sources.shape
     potentials = np.zeros((n, k))
+    if factor is None:
+        return potentials
     for start in range(0, k, _SOLVES_AT_ONCE):
         columns = slice(start, min(start + _SOLVES_AT_ONCE, k))
         potentials[1:, columns] = factor(sources[1:, columns].toarray(order="F"))
     return potentials
 
 
-def factored_laplacian(K: DeltaComplex, weights: Floats) -> Factor:
-    """The Cholesky factor of the Laplacian without its row and column 0.
+def factored_laplacian(K: DeltaComplex, weights: Floats) -> Factor | None:
+    """The Cholesky factor of the Laplacian without its row and column 0; see :func:`factorised`.
 
     Raises
     ------
@@ -125,8 +125,16 @@ def factored_laplacian(K: DeltaComplex, weights: Floats) -> Factor:
     return factorised(grounded_laplacian(K, weights))
 
 
-def factorised(grounded: csc_matrix) -> Factor:
-    """The Cholesky factor of a grounded Laplacian, as :func:`factored_laplacian`."""
+def factorised(grounded: csc_matrix) -> Factor | None:
+    """The Cholesky factor of a grounded Laplacian; None where one vertex leaves nothing to factor.
+
+    Raises
+    ------
+    ComplexError
+        If it is not positive definite.
+    """
+    if grounded.shape[0] == 0:
+        return None
     tidy = release_freed_memory if grounded.shape[0] > _LARGE else lambda: None
     tidy()
     # Supernodal is L Lᵀ, which fails on matrices that are not positive definite; the simplicial

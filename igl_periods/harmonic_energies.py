@@ -57,8 +57,9 @@ class HarmonicProblem:
     jumps: Jumps
     extreme_jumps: Jumps
 
-    def forms(self, columns: slice, potentials: Floats) -> tuple[LinearForms, LinearForms]:
-        """Some of the forms c + df, on all faces and on the extreme ones."""
+    def forms(self, columns: slice, factor: Factor | None) -> tuple[LinearForms, LinearForms]:
+        """Some of the harmonic forms c + df, on all faces and on the extreme ones."""
+        potentials = solutions(factor, self.sources[:, columns])
         return (
             LinearForms(self.faces, self.jumps.of_cochains(columns), potentials),
             LinearForms(self.extreme, self.extreme_jumps.of_cochains(columns), potentials),
@@ -85,7 +86,7 @@ def harmonic_problem(K: DeltaComplex, cochains: csr_array) -> tuple[csc_matrix, 
 def linear_energies(K: DeltaComplex, cochains: csr_array) -> tuple[Floats, float]:
     """Energies of the harmonic forms of a surface of few forms, as :func:`harmonic_energies`."""
     laplacian, problem = harmonic_problem(K, cochains)
-    return harmonic_energies(problem, factorised(laplacian) if laplacian.nnz else None)
+    return harmonic_energies(problem, factorised(laplacian))
 
 
 def harmonic_energies(
@@ -111,19 +112,13 @@ def harmonic_energies(
     """
     n, k = problem.sources.shape
     panels = _panels(n, k, memory)
-
-    def solved(columns: slice) -> Floats:
-        if factor is None:
-            return np.zeros((1, columns.stop - columns.start))
-        return solutions(factor, problem.sources[:, columns])
-
     D, loss = np.zeros((k, k)), np.zeros((k, k))
     for i, rows in enumerate(panels):
-        held = problem.forms(rows, solved(rows))
+        held = problem.forms(rows, factor)
         for matrix, forms in zip((D, loss), held):
             matrix[rows, rows] = gram_matrix(forms)
         for columns in panels[i + 1 :]:
-            passing = problem.forms(columns, solved(columns))
+            passing = problem.forms(columns, factor)
             for matrix, forms, others in zip((D, loss), held, passing):
                 matrix[rows, columns] = mutual_energies(forms, others)
                 matrix[columns, rows] = matrix[rows, columns].T

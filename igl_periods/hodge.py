@@ -85,9 +85,9 @@ def hodge_decomposition(graph: DoubleGraph, alpha: Values) -> HodgeDecomposition
 def _green(graph: DoubleGraph, source: Values) -> Values:
     """The functions f on Γ, 0 at vertex 0, with L f = source; (…, vertices of Γ)."""
     f = np.zeros_like(source)
-    if source.shape[-1] == 1:
-        return f
     factor = factored_laplacian(graph.complex, graph.weights)
+    if factor is None:
+        return f
     rows = source.reshape(-1, source.shape[-1])[:, 1:]
     solved = factor(rows.real.T).T
     if np.iscomplexobj(rows):

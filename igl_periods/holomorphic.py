@@ -34,6 +34,7 @@ Mercat, "Discrete Riemann surfaces" (2007).
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -43,7 +44,7 @@ from scipy.sparse import csr_array
 from .delta_complex import DeltaComplex, cotan_weights
 from .double_graph import DoubleGraph, double_graph
 from .errors import ComplexError
-from .harmonic import edge_ends, harmonic_potentials
+from .harmonic import edge_ends, factored_laplacian, outflow, solutions
 from .homology import cohomology_basis, pairing
 from .symplectic import siegel_point, standard_form, williamson
 
@@ -80,6 +81,36 @@ def harmonic_forms(K: DeltaComplex, cocycles: csr_array | None = None) -> Floats
     Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 3.
     """
     return _harmonic(K, cotan_weights(K), _basis(K, cocycles))
+
+
+def harmonic_form_blocks(
+    K: DeltaComplex, cocycles: csr_array | None = None, *, rows: int = 32
+) -> Iterator[Floats]:
+    """The harmonic cochains a few at a time, for surfaces of so high a genus that not all fit.
+
+    Parameters
+    ----------
+    K, cocycles
+        As in :func:`harmonic_forms`.
+    rows : int
+        Forms in each block (fewer in the last one): a block takes ``8 rows n_edges`` bytes, and
+        twice that while it is made.
+
+    Yields
+    ------
+    (rows, n_edges) float
+        Rows 0, 1, … of :func:`harmonic_forms`.  The Laplacian is factored once.
+
+    Raises
+    ------
+    ValueError
+        If ``rows`` is less than 1.
+    ComplexError
+        As :func:`harmonic_forms`.
+    """
+    if rows < 1:
+        raise ValueError(f"rows = {rows}: a block has 1 row at least.")
+    return _harmonic_blocks(K, cotan_weights(K), _basis(K, cocycles), rows)
 
 
 def harmonic_basis(graph: DoubleGraph, cocycles: csr_array | None = None) -> tuple[Floats, Floats]:
@@ -227,9 +258,20 @@ def periods(K: DeltaComplex, forms: Values, cocycles: csr_array | None = None) -
 
 
 def _harmonic(K: DeltaComplex, weights: Floats, basis: csr_array) -> Floats:
+    blocks = _harmonic_blocks(K, weights, basis, max(basis.shape[0], 1))
+    return next(blocks, np.zeros((0, K.n_edges)))
+
+
+def _harmonic_blocks(
+    K: DeltaComplex, weights: Floats, basis: csr_array, rows: int
+) -> Iterator[Floats]:
     tail, head = edge_ends(K)
-    f = harmonic_potentials(K, weights, basis)
-    return np.asarray(basis.toarray() + (f[head] - f[tail]).T, dtype=np.float64)
+    sources = outflow(K.n_vertices, tail, head, weights, basis)
+    factor = factored_laplacian(K, weights)
+    for start in range(0, basis.shape[0], rows):
+        block = slice(start, start + rows)
+        f = np.ascontiguousarray(solutions(factor, sources[:, block]).T)
+        yield basis[block].toarray() + (f[:, head] - f[:, tail])
 
 
 def _basis(K: DeltaComplex, cocycles: csr_array | None) -> csr_array:

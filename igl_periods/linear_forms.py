@@ -33,7 +33,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 # Faces handled at once: few enough for the cache, enough for matrix products.
-_FEWEST_AT_ONCE = 2_048
+_FEWEST_AT_ONCE = 512
 _NUMBERS_AT_ONCE = 100_000
 
 

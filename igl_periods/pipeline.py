@@ -124,7 +124,7 @@ def period_matrix(
     # the factor takes the memory of all of them.
     laplacian, problem = harmonic_problem(*_triangulated(K, cochains, delaunay))
     with stage("factorisation"):
-        factor = factorised(laplacian) if laplacian.nnz else None
+        factor = factorised(laplacian)
         del laplacian
     with stage("harmonic forms"):
         return certify(*harmonic_energies(problem, factor, room))

@@ -84,7 +84,8 @@ class Stages(logging.Handler):
 
 def peak_bytes():
     """The most memory that this process has held; getrusage would count its parent's as well."""
-    status = dict(line.split(":", 1) for line in Path("/proc/self/status").open())
+    lines = Path("/proc/self/status").read_text().splitlines()
+    status = dict(line.split(":", 1) for line in lines)
     return 1024 * int(status["VmHWM"].split()[0])
 
 
