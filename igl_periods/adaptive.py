@@ -44,7 +44,7 @@ from .high_order import (
     separate_cones,
 )
 from .local_refinement import insert_barycentres
-from .memory import available_memory, count_unknowns, high_order_memory
+from .memory import available_memory, count_unknowns, high_order_memory, room_for_forms
 from .periods import PeriodMatrix
 from .stages import logger
 
@@ -176,7 +176,7 @@ def period_matrix_within(
     if not tolerance > 0.0:
         raise ValueError(f"tolerance = {tolerance}: a bound is always positive.")
     limits = Limits(max_unknowns, max_memory)
-    attempts = [_linear_attempt(triangulation, certify)]
+    attempts = [_linear_attempt(triangulation, certify, max_memory)]
     while (best := min(attempts, key=lambda attempt: attempt.bound)).bound > tolerance:
         plan = _next_plan(attempts, tolerance, limits)
         outcome = _carried_out(plan, certify, tolerance) if isinstance(plan, Plan) else plan
@@ -191,10 +191,12 @@ def period_matrix_within(
     return best.result
 
 
-def _linear_attempt(triangulation: Triangulation, certify: Certify) -> Attempt:
+def _linear_attempt(
+    triangulation: Triangulation, certify: Certify, max_memory: float | None
+) -> Attempt:
     start = time.perf_counter()
     K, cochains = triangulation.complex, triangulation.cochains
-    result = certify(*linear_energies(K, cochains))
+    result = certify(*linear_energies(K, cochains, room_for_forms(K, max_memory)))
     seconds = time.perf_counter() - start
     return _logged(Attempt(triangulation, 1, K.n_vertices, seconds, result, np.zeros(0)))
 

@@ -83,10 +83,12 @@ def harmonic_problem(K: DeltaComplex, cochains: csr_array) -> tuple[csc_matrix, 
     return lower_laplacian(K.n_vertices, tail, head, rho, 1), problem
 
 
-def linear_energies(K: DeltaComplex, cochains: csr_array) -> tuple[Floats, float]:
-    """Energies of the harmonic forms of a surface of few forms, as :func:`harmonic_energies`."""
+def linear_energies(
+    K: DeltaComplex, cochains: csr_array, memory: float | None = None
+) -> tuple[Floats, float]:
+    """All of it at once: :func:`harmonic_energies` of closed cochains on K."""
     laplacian, problem = harmonic_problem(K, cochains)
-    return harmonic_energies(problem, factorised(laplacian))
+    return harmonic_energies(problem, factorised(laplacian), memory)
 
 
 def harmonic_energies(

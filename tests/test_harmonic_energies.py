@@ -19,11 +19,6 @@ from igl_periods.rounding import geometric_allowance
 from igl_periods.surfaces import thickened_lattice
 
 
-def energies(K, cochains, memory):
-    laplacian, problem = harmonic_problem(K, cochains)
-    return harmonic_energies.harmonic_energies(problem, factorised(laplacian), memory)
-
-
 def lattice(shape):
     """An irregular surface of high genus, with thin triangles: one vertex in six is moved far."""
     V, F = thickened_lattice(shape, 1, aspect=2, jitter=0.15)
@@ -35,7 +30,7 @@ def lattice(shape):
 def test_panels_give_the_same_energies(monkeypatch):
     K = lattice((4, 4, 3))
     cochains, _ = cochains_and_basis(K)
-    whole, allowance = energies(K, cochains, None)
+    whole, allowance = linear_energies(K, cochains)
     scale = np.sqrt(np.diag(whole))
     columns = []
     solutions = harmonic_energies.solutions
@@ -46,7 +41,7 @@ def test_panels_give_the_same_energies(monkeypatch):
     )
     for memory in (0.0, 16.0 * K.n_vertices * 50):
         columns.clear()
-        parts, rounding = energies(K, cochains, memory)
+        parts, rounding = linear_energies(K, cochains, memory)
         assert np.array_equal(parts, parts.T)
         assert np.abs(parts - whole).max() <= 1e-13 * np.outer(scale, scale).max()
         assert (np.abs(parts - whole) <= 1e-13 * np.outer(scale, scale)).all()
