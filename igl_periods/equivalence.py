@@ -36,7 +36,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from .half_space import check_same_genus, log_eigenvalues, siegel_transform
 from .isometries import isometries
-from .lattice import EnumerationLimitError, product, unimodular_inverse
+from .integer_matrices import product, unimodular_inverse
+from .lattice import EnumerationLimitError
 from .siegel import siegel_reduce
 from .symplectic import energy_matrix, form_action
 

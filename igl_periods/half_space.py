@@ -17,12 +17,12 @@ Siegel, "Symplectic geometry" (1943).
 
 from __future__ import annotations
 
-import flint
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .errors import NotASiegelPointError
-from .symplectic import standard_form
+from .moebius import moebius
+from .symplectic import is_symplectic
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -95,8 +95,8 @@ def check_same_genus(Pi1: ArrayLike, Pi2: ArrayLike) -> tuple[Complexes, Complex
 def siegel_transform(gamma: ArrayLike, Pi: ArrayLike) -> Complexes:
     """The Möbius action γ · Π = (a Π + b)(c Π + d)⁻¹ of Sp(2g, Z).
 
-    Computed in ball arithmetic from the given floating-point Π, with as many digits as it needs:
-    every entry is right to rounding, however large γ is.
+    Computed from the given floating-point Π with as many digits as it needs
+    (:mod:`igl_periods.moebius`): every entry is right to rounding, however large γ is.
 
     Parameters
     ----------
@@ -135,47 +135,12 @@ def check_symplectic(gamma: ArrayLike, g: int) -> Ints:
     matrix = given.astype(np.int64)
     if not np.array_equal(matrix, given):
         raise ValueError("a modular transformation has integer entries, this matrix has others")
-    M = flint.fmpz_mat(matrix.tolist()) if g else flint.fmpz_mat(0, 0)
-    defect = M * flint.fmpz_mat(standard_form(g).tolist()) * M.transpose()
-    if defect != flint.fmpz_mat(standard_form(g).tolist()):
+    if not is_symplectic(matrix):
         raise ValueError(
             "the matrix is not symplectic: γ J γᵀ differs from J = [[0, 1], [-1, 0]]. (Matrices "
             "that act on forms or cycles in another order are other conjugates of γ.)"
         )
     return matrix
-
-
-def moebius(gamma: Ints, Pi: Complexes) -> Complexes:
-    """γ · Π for arguments that are known to be valid."""
-    g = len(Pi)
-    if g == 0:
-        return Pi.copy()
-    a, b, c, d = (
-        flint.acb_mat(flint.fmpz_mat(block.tolist()))
-        for block in (gamma[:g, :g], gamma[:g, g:], gamma[g:, :g], gamma[g:, g:])
-    )
-    for doubling in range(8):
-        with flint.ctx.workprec(96 << doubling):
-            P = flint.acb_mat(Pi.tolist())
-            numerator, denominator = (a * P + b).transpose(), (c * P + d).transpose()
-            try:
-                result = _rounded(denominator.solve(numerator))
-            except ZeroDivisionError:
-                continue
-        if result is not None:
-            return 0.5 * (result + result.T)
-    raise NotASiegelPointError(
-        "γ · Π cannot be computed: Π is too close to the boundary of the Siegel upper half-space"
-    )
-
-
-def _rounded(M: flint.acb_mat) -> Complexes | None:
-    """The midpoints as an array, or None where the balls are larger than rounding."""
-    entries = M.entries()
-    middle = np.array([complex(z) for z in entries]).reshape(M.nrows(), M.ncols())
-    scale = min(float(np.abs(np.diag(middle)).min()), 1.0)
-    sharp = all(float(z.rad()) <= 2.0**-56 * scale for z in entries)
-    return middle if sharp and np.isfinite(middle).all() else None
 
 
 def siegel_distance(Pi1: ArrayLike, Pi2: ArrayLike) -> float:

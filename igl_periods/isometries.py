@@ -31,7 +31,8 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
-from .lattice import EnumerationLimitError, lll_basis, product, short_vectors, unimodular_inverse
+from .integer_matrices import product, unimodular_inverse
+from .lattice import EnumerationLimitError, lll_basis, short_vectors
 from .symplectic import standard_form
 
 Bools = NDArray[np.bool_]

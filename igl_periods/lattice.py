@@ -27,11 +27,16 @@ import flint
 import numpy as np
 from numpy.typing import NDArray
 
+from .all_swap import all_swap_lll
+from .integer_matrices import int_array, unimodular_inverse
+
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 # Bits kept of the smallest eigenvalue when a form is rounded to integers.
 _BITS = 40
+# From this size on a form is reduced in floating point, if it is not too far from round.
+_ALL_SWAP_SIZE = 40
 # Partial vectors handled at one level before an enumeration counts as too large.
 ENUMERATION_LIMIT = 500_000
 
@@ -47,16 +52,19 @@ def lll_basis(Y: Floats) -> Ints:
     ----------
     Y : (n, n) float
         Symmetric, positive definite.  It is rounded to integers relative to its smallest
-        eigenvalue, so that the form may be as far from round as floating point allows.
+        eigenvalue, so that the form may be as far from round as floating point allows.  Large
+        forms are reduced in floating point where that suffices (:mod:`igl_periods.all_swap`).
     """
     n = len(Y)
     if n < 2:
         return np.eye(n, dtype=np.int64)
+    if n >= _ALL_SWAP_SIZE and (U := all_swap_lll(Y)) is not None:
+        return U
     least = max(float(np.linalg.eigvalsh(Y)[0]), np.finfo(float).eps * float(np.trace(Y)))
     scaled = np.ldexp(Y, _BITS - int(np.floor(np.log2(least))))
     form = flint.fmpz_mat([[int(v) for v in row] for row in np.rint(0.5 * (scaled + scaled.T))])
-    _, U = form.lll(True, 0.99, 0.51, "gram")
-    return int_array(U)
+    _, transformation = form.lll(True, 0.99, 0.51, "gram")
+    return int_array(transformation)
 
 
 def short_vectors(Y: Floats, bound: float, limit: int = ENUMERATION_LIMIT) -> tuple[Ints, Floats]:
@@ -132,25 +140,3 @@ def _completed(x: Ints) -> Ints:
     table = flint.fmpz_mat(np.column_stack([x, np.eye(n, dtype=np.int64)]).tolist()).hnf()
     W = int_array(table)[:, 1:]
     return unimodular_inverse(W).T
-
-
-def int_array(M: flint.fmpz_mat) -> Ints:
-    """The entries as an int64 array; OverflowError if one does not fit."""
-    entries = [int(v) for v in M.entries()]
-    return np.array(entries, dtype=np.int64).reshape(M.nrows(), M.ncols())
-
-
-def unimodular_inverse(U: Ints) -> Ints:
-    """The exact inverse of an integer matrix of determinant ±1."""
-    matrix = flint.fmpz_mat(U.tolist()) if len(U) else flint.fmpz_mat(0, 0)
-    # The integer inverse of python-flint may lack the sign of the determinant.
-    inverse = matrix.inv(True)
-    identity = flint.fmpz_mat(np.eye(len(U), dtype=np.int64).tolist()) if len(U) else matrix
-    return int_array(inverse if inverse * matrix == identity else -inverse)
-
-
-def product(A: Ints, B: Ints) -> Ints:
-    """The exact product of integer matrices; OverflowError where it does not fit into 64 bits."""
-    if not A.size or not B.size:
-        return A @ B
-    return int_array(flint.fmpz_mat(A.tolist()) * flint.fmpz_mat(B.tolist()))

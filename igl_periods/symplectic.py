@@ -30,11 +30,13 @@ Bhatia, Jain, "On symplectic eigenvalues of positive definite matrices" (2015).
 
 from __future__ import annotations
 
+import flint
 import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
 from .errors import ComplexError
+from .integer_matrices import product
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -116,13 +118,23 @@ def _split_off(M: NDArray[np.int8], T: NDArray[np.int8], count: Ints, a: int, b:
 def is_symplectic(U: NDArray[np.integer], M: NDArray[np.integer] | None = None) -> bool:
     """Whether ``U M Uᵀ = J`` exactly (M = J where it is not given)."""
     g = len(U) // 2
-    form = standard_form(g)
     if U.shape != (2 * g, 2 * g):
         return False
-    # Products of integers below 2^53 are exact in floating point, and much faster.
-    left = U.astype(np.float64)
-    middle = (form if M is None else M).astype(np.float64)
-    return bool(np.array_equal(left @ middle @ left.T, form))
+    U = U.astype(np.int64)
+    try:
+        if M is not None:
+            return np.array_equal(product(product(U, M.astype(np.int64)), U.T), standard_form(g))
+        half = product(U[:, :g], U[:, g:].T)
+        return np.array_equal(half - half.T, standard_form(g))
+    except OverflowError:
+        return _is_symplectic_in_flint(U, standard_form(g) if M is None else M)
+
+
+def _is_symplectic_in_flint(U: Ints, M: NDArray[np.integer]) -> bool:
+    """The same for integers of any size."""
+    left = flint.fmpz_mat(U.tolist())
+    form = flint.fmpz_mat(standard_form(len(U) // 2).tolist())
+    return bool(left * flint.fmpz_mat(M.tolist()) * left.transpose() == form)
 
 
 def energy_matrix(Pi: NDArray[np.complex128]) -> Floats:
