@@ -54,7 +54,7 @@ def all_swap_lll(Y: Floats) -> Ints | None:
     U = np.eye(len(Y))
     for _ in range(_MOST_PASSES):
         try:
-            R = np.linalg.cholesky(U @ Y @ U.T)
+            R = np.asarray(np.linalg.cholesky(U @ Y @ U.T), dtype=np.float64)
         except np.linalg.LinAlgError:
             return None
         changed = _reduce_coefficients(R, U)

@@ -35,8 +35,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .half_space import check_same_genus, log_eigenvalues, siegel_transform
-from .isometries import isometries
 from .integer_matrices import product, unimodular_inverse
+from .isometries import isometries
 from .lattice import EnumerationLimitError
 from .siegel import siegel_reduce
 from .symplectic import energy_matrix, form_action

@@ -33,6 +33,8 @@ from .integer_matrices import int_array, unimodular_inverse
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
+# What LLL-reduced means.
+_DELTA, _ETA = 0.99, 0.51
 # Bits kept of the smallest eigenvalue when a form is rounded to integers.
 _BITS = 40
 # From this size on a form is reduced in floating point, if it is not too far from round.
@@ -63,8 +65,21 @@ def lll_basis(Y: Floats) -> Ints:
     least = max(float(np.linalg.eigvalsh(Y)[0]), np.finfo(float).eps * float(np.trace(Y)))
     scaled = np.ldexp(Y, _BITS - int(np.floor(np.log2(least))))
     form = flint.fmpz_mat([[int(v) for v in row] for row in np.rint(0.5 * (scaled + scaled.T))])
-    _, transformation = form.lll(True, 0.99, 0.51, "gram")
+    _, transformation = form.lll(True, _DELTA, _ETA, "gram")
     return int_array(transformation)
+
+
+def is_lll_reduced(Y: Floats, tolerance: float) -> bool:
+    """Whether the basis of a positive definite form is LLL-reduced, up to a tolerance."""
+    if len(Y) < 2:
+        return True
+    R = np.linalg.cholesky(Y)
+    height, mu = np.diagonal(R) ** 2, R / np.diagonal(R)
+    neighbour = np.diagonal(mu, -1)
+    return bool(
+        np.abs(np.tril(mu, -1)).max() <= _ETA + tolerance
+        and np.all(height[1:] >= (_DELTA - tolerance - neighbour**2) * height[:-1])
+    )
 
 
 def short_vectors(Y: Floats, bound: float, limit: int = ENUMERATION_LIMIT) -> tuple[Ints, Floats]:

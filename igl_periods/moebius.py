@@ -109,7 +109,7 @@ def _in_floats(gamma: Ints, Pi: Complexes) -> Complexes | None:
         inverse = np.linalg.inv(Q.high + Q.low)
     except np.linalg.LinAlgError:
         return None
-    Z = (N.high + N.low) @ inverse
+    Z: Complexes = (N.high + N.low) @ inverse
     if not np.isfinite(Z).all():
         return None
     correction = _residual(N, Z, Q) @ inverse
@@ -117,7 +117,7 @@ def _in_floats(gamma: Ints, Pi: Complexes) -> Complexes | None:
     if not np.abs(correction).max() <= _LARGEST_CORRECTION * scale:
         return None
     Z += correction
-    return 0.5 * (Z + Z.T)
+    return np.asarray(0.5 * (Z + Z.T))
 
 
 def _affine(A: Floats, B: Floats, Pi: Complexes) -> _Split | None:

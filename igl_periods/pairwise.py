@@ -5,10 +5,10 @@ Write v_1, …, v_2g for α_1..α_g, β_1..β_g, i* for the index of the partner
 
 .. math:: v_i \mathrel{+}= k\, v_j, \qquad v_{j^*} \mathrel{-}= k\, \sigma_i \sigma_j\, v_{i^*}
 
-leads to a canonical basis again: of all pairings only that of v_i with v_{j*} could change, by
-:math:`k \sigma_j` for the first and :math:`- k \sigma_i \sigma_j \sigma_i` for the second, and these
-cancel.  So does, alone, :math:`v_i \mathrel{+}= k\, v_{i^*}`, because a class has no pairing with
-itself.  With D the matrix of energies, these moves change trace D by
+leads to a canonical basis again: of all pairings only that of v_i with v_{j*} could change.  The
+first changes it by k σ_j, the second by −k σ_i σ_j σ_i, and these cancel.  So does, alone,
+:math:`v_i \mathrel{+}= k\, v_{i^*}`, because a class has no pairing with itself.  With D the matrix
+of energies, these moves change trace D by
 
 .. math:: 2 k N + k^2 S, \qquad N = D_{ij} - \sigma_i \sigma_j D_{i^* j^*}, \quad
           S = D_{jj} + D_{i^* i^*},
@@ -42,6 +42,7 @@ Ints = NDArray[np.int64]
 _LEAST_GAIN = 1e-9
 # Integers above this end the reduction: D is too far from round for its digits to tell the moves.
 _LARGE = 2.0**40
+_LARGEST_MULTIPLE = 2.0**20
 # Numbers looked at together.
 _NUMBERS_AT_ONCE = 2_000_000
 
@@ -136,6 +137,8 @@ def _move(D: Floats, U: Ints, i: Ints, j: Ints) -> None:
     n = len(D)
     i_star, j_star, sign = _partner(i, n), _partner(j, n), _sign(i, n) * _sign(j, n)
     k = -np.rint((D[i, j] - sign * D[i_star, j_star]) / (D[j, j] + D[i_star, i_star]))
+    # A smaller multiple is a gain too.
+    k = np.clip(k, -_LARGEST_MULTIPLE, _LARGEST_MULTIPLE)
     two = j != i_star
     target = np.concatenate([i, j_star[two]])
     source = np.concatenate([j, i_star[two]])

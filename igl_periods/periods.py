@@ -51,14 +51,15 @@ from scipy.sparse import csr_array
 from .delta_complex import DeltaComplex
 from .errors import ComplexError
 from .half_space import check_symplectic
+from .integer_matrices import product
 from .invariants import to_flint
 from .rounding import LEAST_ALLOWANCE, algebraic_allowance, congruence
-from .siegel import siegel_reduce
+from .siegel import SIEGEL_GENUS_LIMIT, siegel_reduce
 from .symplectic import (
     cholesky_factor,
     form_action,
     siegel_point,
-    williamson,
+    williamson_of_factor,
 )
 
 Floats = NDArray[np.float64]
@@ -106,9 +107,8 @@ class PeriodMatrix:
             raise ComplexError("a Dirichlet matrix is symmetric; this one is not.")
         if self.cocycles.shape != edges:
             raise ComplexError(f"the cocycles have shape {self.cocycles.shape}, not {edges}.")
-        D = 0.5 * (D + D.T)
-        cholesky_factor(D)
-        object.__setattr__(self, "dirichlet", _read_only(D))
+        object.__setattr__(self, "dirichlet", _read_only(0.5 * (D + D.T)))
+        _ = self._factor
         _read_only(self.cocycles.data)
 
     @property
@@ -117,8 +117,12 @@ class PeriodMatrix:
         return len(self.dirichlet) // 2
 
     @cached_property
+    def _factor(self) -> Floats:
+        return cholesky_factor(self.dirichlet)
+
+    @cached_property
     def _williamson(self) -> tuple[Floats, Floats]:
-        return williamson(self.dirichlet)
+        return williamson_of_factor(self._factor)
 
     @property
     def symplectic_eigenvalues(self) -> Floats:
@@ -170,7 +174,7 @@ class PeriodMatrix:
     @cached_property
     def rounding_allowance(self) -> float:
         """What the bound contains for floating-point errors, in D and in what follows from it."""
-        return self.rounding + algebraic_allowance(self.dirichlet)
+        return self.rounding + algebraic_allowance(self._factor)
 
     @property
     def entry_bounds(self) -> Floats | None:
@@ -180,9 +184,15 @@ class PeriodMatrix:
         scale = np.sqrt(np.diag(self.matrix.imag))
         return _read_only(self.bound * np.outer(scale, scale))
 
-    def reduced(self) -> PeriodMatrix:
-        """The same surface with a Siegel-reduced matrix; see :func:`siegel_reduce`."""
-        return siegel_reduced(self)[0]
+    def reduced(self, *, max_genus: int = SIEGEL_GENUS_LIMIT) -> PeriodMatrix:
+        """The same surface with a Siegel-reduced matrix; see :func:`siegel_reduce`.
+
+        Raises
+        ------
+        ValueError
+            If the genus is larger than ``max_genus``.
+        """
+        return siegel_reduced(self, max_genus=max_genus)[0]
 
     def change_basis(self, gamma: ArrayLike) -> PeriodMatrix:
         """The same surface in another canonical basis: Π ↦ (aΠ + b)(cΠ + d)⁻¹.
@@ -242,19 +252,23 @@ class PeriodMatrix:
         return D[:g, :g], D[:g, g:], D[g:, :g], D[g:, g:]
 
 
-def siegel_reduced(pm: PeriodMatrix) -> tuple[PeriodMatrix, NDArray[np.int64]]:
+def siegel_reduced(
+    pm: PeriodMatrix, *, max_genus: int = SIEGEL_GENUS_LIMIT
+) -> tuple[PeriodMatrix, NDArray[np.int64]]:
     """The same surface with a Siegel-reduced matrix, and the γ that leads to it.
 
     The matrix is computed anew from its Dirichlet matrix in the new marking, where it is better
-    conditioned; so the reduction is repeated until there is nothing left to reduce.
+    conditioned; so the reduction is repeated until there is nothing left to reduce.  Each time the
+    whole γ is applied to the given Dirichlet matrix, so rounding is counted once.
     """
-    total = np.eye(2 * pm.genus, dtype=np.int64)
+    reduced, total = pm, np.eye(2 * pm.genus, dtype=np.int64)
     for _ in range(_MOST_REDUCTIONS):
-        gamma = siegel_reduce(pm.matrix).gamma
+        gamma = siegel_reduce(reduced.matrix, max_genus=max_genus).gamma
         if np.array_equal(gamma, np.eye(2 * pm.genus)):
             break
-        pm, total = pm.change_basis(gamma), gamma @ total
-    return pm, total
+        total = product(gamma, total)
+        reduced = pm.change_basis(total)
+    return reduced, total
 
 
 def _read_only(array: NDArray[Any]) -> NDArray[Any]:

@@ -18,9 +18,14 @@ ones, and their own s is added; :attr:`DeltaComplex.distortion` keeps account of
 triangles carry little energy: so the sum of :math:`\epsilon s_f D_f` over the faces is compared
 with D as a matrix, instead of taking the worst s.
 
-*Algebra.*  The Gram matrix is accurate to a few ulps of :math:`\sqrt{D_{ii} D_{jj}}` in the basis
-in which it is computed; a change of basis U D Uᵀ adds such errors up, and loses digits where it
-subtracts nearly parallel forms.
+*Algebra.*  If all entries of a symmetric E are at most :math:`t_i t_j`, then
+
+.. math:: |\xi^T E\, \xi| \le \Big( \sum_i t_i |\xi_i| \Big)^2 \le t^T |D^{-1}|\, t \; \xi^T D\, \xi
+
+(write the sum as :math:`(D^{-1/2} \sigma t)^T (D^{1/2} \xi)` with σ the signs of ξ).  The Gram
+matrix is accurate to a few ulps of :math:`\sqrt{D_{ii} D_{jj}}` in the basis in which it is
+computed, so t is the root of its diagonal there.  A relative error in this sense is the same in
+every basis: a change of basis U D Uᵀ adds only what rounding does to that product.
 """
 
 from __future__ import annotations
@@ -39,9 +44,13 @@ Floats = NDArray[np.float64]
 
 LEAST_ALLOWANCE = 1e-13
 
-_ERROR = 4 * float(np.finfo(np.float64).eps)
+_ULP = 0.5 * float(np.finfo(np.float64).eps)
+_ERROR = 8 * _ULP
 # Faces up to this sensitivity are taken together: most are far below it.
 _ORDINARY = 100.0
+# The power method, started anywhere, and kept away from vectors with zeros.
+_POWER_STEPS = 12
+_LEAST_COMPONENT = 1e-4
 
 
 def rounding_sensitivity(K: DeltaComplex) -> Floats:
@@ -90,29 +99,66 @@ def allowance_for_loss(D: Floats, loss: Floats) -> float:
 
 
 def congruence(U: NDArray[np.integer], D: Floats) -> tuple[Floats, float]:
-    """U D Uᵀ, and the relative error of the result that rounding in D can cause.
+    """U D Uᵀ, and the relative error of the result that rounding in D and after it can cause.
 
-    With |δD_ij| ≤ ε √(D_ii D_jj) the error of U D Uᵀ is at most ε t tᵀ entry by entry, where
-    t = |U| √diag(D), and relative to U D Uᵀ = R Rᵀ at most ε ‖ |R⁻¹| t ‖².
+    Entries of D are taken to be off by a few ulps of √(D_ii D_jj).  The product is exact in the
+    leading digits of D; the others are so small that errors of ulps of them hardly count.
     """
-    changed = U @ D @ U.T
+    if len(D) == 0:
+        return D.copy(), 0.0
+    A = U.astype(np.float64)
+    sums = np.abs(A).sum(axis=1)
+    unit = _unit(float(sums.max()) ** 2 * float(np.abs(D).max()))
+    high = unit * np.rint(D / unit)
+    changed = A @ high @ A.T + A @ (D - high) @ A.T
     changed = 0.5 * (changed + changed.T)
-    if len(D) == 0:
-        return changed, 0.0
-    inverse = np.linalg.inv(cholesky_factor(changed))
-    t = np.abs(U) @ np.sqrt(np.diag(D))
-    return changed, _ERROR * float(np.sum((np.abs(inverse) @ t) ** 2))
+    inverse = _absolute_inverse(cholesky_factor(changed))
+    terms = int(np.count_nonzero(A, axis=1).max())
+    # The sum is rounded once; the second product has so many terms, none above unit / 2.
+    rounded = _amplified(inverse, np.sqrt(np.diag(changed)))
+    rounded += terms * unit * _amplified(inverse, sums)
+    given = _amplified(_absolute_inverse(cholesky_factor(D)), np.sqrt(np.diag(D)))
+    return changed, _ERROR * given + _ULP * rounded
 
 
-def algebraic_allowance(D: Floats) -> float:
-    """Relative error of the symplectic mean, and of Π, that rounding after D can cause.
+def algebraic_allowance(R: Floats) -> float:
+    """Relative error of the symplectic mean, and of Π, that rounding after D = R Rᵀ can cause.
 
-    With D = R Rᵀ they are computed from Rᵀ J R, which is accurate to ε |Rᵀ| |J| |R|, and by
-    inverting a block of D, which is :func:`congruence` with U = 1.
+    They are computed from Rᵀ J R, which is accurate to nε |Rᵀ| |J| |R|, and by factoring and
+    inverting D and its blocks, accurate to nε √(D_ii D_jj).
     """
-    if len(D) == 0:
+    if len(R) == 0:
         return 0.0
-    g, R = len(D) // 2, np.abs(cholesky_factor(D))
-    skew = R[:g].T @ R[g:]
-    _, inversion = congruence(np.eye(len(D), dtype=np.int64), D)
-    return _ERROR * float(np.linalg.norm(skew + skew.T, 2)) + inversion
+    inversion = _amplified(_absolute_inverse(R), np.linalg.norm(R, axis=1))
+    return 4 * len(R) * _ULP * (_skew_norm(np.abs(R)) + inversion)
+
+
+def _absolute_inverse(R: Floats) -> Floats:
+    """|D⁻¹|, entry by entry, of D = R Rᵀ."""
+    lower, _ = scipy.linalg.lapack.dpotri(R, lower=1)
+    lower = np.abs(np.tril(lower))
+    return np.asarray(lower + np.tril(lower, -1).T)
+
+
+def _amplified(inverse: Floats, t: Floats) -> float:
+    """By how much an error t tᵀ is larger than D at most: tᵀ |D⁻¹| t."""
+    return float(t @ inverse @ t)
+
+
+def _skew_norm(R: Floats) -> float:
+    """A bound of ‖Rᵀ |J| R‖₂ for R without negative entries.
+
+    For a symmetric M without negative entries and any v > 0 it is at most max (Mv)_i / v_i; v
+    comes from a few steps of the power method.
+    """
+    (top, bottom), v, bound = np.split(R, 2), np.ones(len(R)), np.inf
+    for _ in range(_POWER_STEPS):
+        image = top.T @ (bottom @ v) + bottom.T @ (top @ v)
+        bound = min(bound, float((image / v).max()))
+        v = image / image.max() + _LEAST_COMPONENT
+    return bound
+
+
+def _unit(largest: float) -> float:
+    """A power of 2 such that numbers up to ``largest`` are less than 2^52 of it."""
+    return float(np.ldexp(1.0, int(np.ceil(np.log2(largest))) - 52))

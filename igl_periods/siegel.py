@@ -36,7 +36,7 @@ from numpy.typing import ArrayLike, NDArray
 from .half_space import check_siegel_point, siegel_distance, siegel_transform
 from .moebius import moebius
 from .pairwise import pairwise_reduction
-from .siegel_steps import exact_product, inversion_step, lattice_step
+from .siegel_steps import exact_product, inversion_step, is_nearly_reduced, lattice_step
 from .symplectic import energy_matrix, form_action
 
 __all__ = [
@@ -117,19 +117,27 @@ def siegel_reduce(Pi: ArrayLike, *, max_genus: int = SIEGEL_GENUS_LIMIT) -> Sieg
     start = check_siegel_point(Pi)
     g = len(start)
     check_siegel_genus(g, max_genus)
-    point, gamma, exact = start, np.eye(2 * g, dtype=np.int64), True
-    if g > _SMALL_GENUS:
+    small = g <= _SMALL_GENUS
+    point, gamma = start, np.eye(2 * g, dtype=np.int64)
+    if not small and not is_nearly_reduced(start):
         gamma = form_action(pairwise_reduction(energy_matrix(start)))
         point = moebius(gamma, start)
+    exact, n_idle = True, 0
     for n_steps in itertools.count():
-        step = lattice_step(point)
-        if step.idle:
-            step = inversion_step(point, g if n_steps < _HASTY_STEPS else 1)
-        if step.idle and exact:
+        hasty = n_steps < _HASTY_STEPS
+        if n_steps % 2 == 0:
+            step = lattice_step(point)
+        else:
+            step = inversion_step(point, g if hasty else 1)
+        n_idle = n_idle + 1 if step.idle else 0
+        if n_idle == 2 and exact:
             return SiegelReduction(point, gamma)
-        gamma = exact_product(step.gamma, gamma)
-        exact = step.idle or g <= _SMALL_GENUS or n_steps >= _HASTY_STEPS
-        point = moebius(gamma, start) if exact else step.point
+        if not step.idle:
+            gamma = exact_product(step.gamma, gamma)
+            exact = small or not hasty
+            point = moebius(gamma, start) if exact else step.point
+        elif n_idle == 2:
+            point, exact, n_idle = moebius(gamma, start), True, 0
     raise AssertionError("unreachable: the walk along the orbit ends")
 
 

@@ -3,10 +3,12 @@ r"""The steps of Siegel reduction: what is done to Π, and the modular transform
 A lattice step is :math:`\Pi \to U \Pi U^T - S`, U unimodular such that U Y Uᵀ is LLL-reduced, and S
 integer and symmetric such that the real part gets at most ½.  It leaves det Y as it is.
 
-An inversion step is a run of quasi-inversions, :math:`\Pi_{jj} \to -1/\Pi_{jj}`,
-:math:`\Pi_{ij} \to \Pi_{ij} / \Pi_{jj}`,
-:math:`\Pi_{ik} \to \Pi_{ik} - \Pi_{ij} \Pi_{jk} / \Pi_{jj}`, each at the least |Π_jj| < 1 and with a
-shift after it.  Each multiplies det Y by |Π_jj|⁻² > 1.
+An inversion step is a run of quasi-inversions,
+
+.. math:: \Pi_{jj} \to -1/\Pi_{jj}, \quad \Pi_{ij} \to \Pi_{ij} / \Pi_{jj}, \quad
+          \Pi_{ik} \to \Pi_{ik} - \Pi_{ij} \Pi_{jk} / \Pi_{jj},
+
+each at the least |Π_jj| < 1, with shifts after it.  Each multiplies det Y by |Π_jj|⁻² > 1.
 
 The transformations are exact.  The points are moved in floating point, and good for choosing the
 next step.  A lattice step is O(g³), a quasi-inversion O(g²).
@@ -22,7 +24,7 @@ from scipy.sparse import csr_array
 
 from .errors import NotASiegelPointError
 from .integer_matrices import product, unimodular_inverse
-from .lattice import lll_basis, shortest_first
+from .lattice import is_lll_reduced, lll_basis, shortest_first
 from .stages import progress
 
 Floats = NDArray[np.float64]
@@ -35,6 +37,13 @@ _EPSILON = 1e-12
 _SHORTEST_VECTOR_GENUS = 8
 # Integers above this end a run of quasi-inversions in floating point.
 _LARGE = 1e6
+
+
+# Above this genus so many quasi-inversions are made before the whole matrix is changed and shifted.
+_ONE_BY_ONE_GENUS = 16
+_AT_ONCE = 32
+# What is reduced up to this needs no other start, only a few more steps.
+_NEARLY = 1e-6
 
 
 class Step(NamedTuple):
@@ -56,47 +65,84 @@ def lattice_step(Pi: Complexes) -> Step:
     dual = unimodular_inverse(U).T
     X, Y = U @ Pi.real @ U.T, U @ Pi.imag @ U.T
     S = _integer_part(X)
-    gamma = np.block(
-        [[U, exact_product(-S, dual)], [np.zeros((g, g), dtype=np.int64), dual]]
-    )
+    zero = np.zeros((g, g), dtype=np.int64)
+    gamma = np.block([[U, exact_product(-S, dual) if S.any() else zero], [zero, dual]])
     return Step(_symmetric(X - S) + 1j * _symmetric(Y), gamma)
 
 
 def inversion_step(Pi: Complexes, most: int) -> Step:
     """Up to ``most`` quasi-inversions at indices with |Π_jj| < 1, smallest first, and shifts."""
-    g = len(Pi)
-    X, Y = Pi.real.copy(), Pi.imag.copy()
+    g, done = len(Pi), 0
+    moved = Pi.copy()
     # Small integers, kept in floating point for the sake of fast products.
     upper, lower = np.split(np.eye(2 * g), 2)
-    for count in range(most):
-        size = np.hypot(np.diagonal(X), np.diagonal(Y))
-        j = int(np.argmin(size)) if g else 0
-        if not g or size[j] >= 1 - _EPSILON:
+    at_once = 1 if g <= _ONE_BY_ONE_GENUS else _AT_ONCE
+    while g and done < most:
+        count = _quasi_invert(moved, upper, lower, min(at_once, most - done))
+        done += count
+        if count == 0 or not _shift(moved, upper, lower):
             break
-        _quasi_invert(X, Y, j)
+        progress("quasi-inversions", done)
+    point = _symmetric(moved.real) + 1j * _symmetric(moved.imag)
+    return Step(point, np.vstack([upper, lower]).astype(np.int64))
+
+
+def is_nearly_reduced(Pi: Complexes) -> bool:
+    """Whether Π is what Siegel reduction promises, up to 1e-6."""
+    return bool(
+        np.abs(Pi.real).max(initial=0.0) <= 0.5 + _NEARLY
+        and np.abs(np.diagonal(Pi)).min(initial=1.0) >= 1.0 - _NEARLY
+        and is_lll_reduced(Pi.imag, _NEARLY)
+    )
+
+
+def _quasi_invert(Pi: Complexes, upper: Floats, lower: Floats, most: int) -> int:
+    r"""Up to ``most`` quasi-inversions, each with a shift of the diagonal; in place.  How many.
+
+    With c the column j of Π and p = Π_jj, a quasi-inversion is a change of rank one outside the
+    diagonal, :math:`\Pi \to \Pi - w w^T / p`, where w is c with p − 1 at j.  So the columns to come
+    follow from those before, and Π itself, but for its diagonal, is changed at the end only.
+    """
+    diagonal = np.diagonal(Pi).copy()
+    W = np.empty((most, len(Pi)), dtype=np.complex128)
+    quotients, count = np.empty_like(W), 0
+    while count < most:
+        j = int(np.argmin(np.abs(diagonal)))
+        pivot = diagonal[j]
+        if abs(pivot) >= 1 - _EPSILON:
+            break
+        w = Pi[:, j] - quotients[:count, j] @ W[:count]
+        w[j] = pivot - 1
+        W[count], quotients[count] = w, w / pivot
+        diagonal -= w * quotients[count]
+        diagonal[j] = -1 / pivot
         upper[j], lower[j] = -lower[j], upper[j].copy()
-        rows, columns, S = _sparse_integer_part(X)
-        # A large shift means that digits of Π were lost: start again from exact values.
-        if g * np.abs(S).max(initial=0.0) * np.abs(lower).max() > _LARGE:
+        count += 1
+        (rows,) = np.nonzero(np.abs(diagonal.real) > 0.5 + _EPSILON)
+        S = np.rint(diagonal.real[rows])
+        if _is_large(S, lower):
             break
-        X[rows, columns] -= S
-        moved = np.unique(rows)
-        upper[moved] -= csr_array((S, (rows, columns)), shape=(g, g))[moved] @ lower
-        progress("quasi-inversions", count + 1)
-    return Step(_symmetric(X) + 1j * _symmetric(Y), np.vstack([upper, lower]).astype(np.int64))
+        diagonal[rows] -= S
+        upper[rows] -= S[:, None] * lower[rows]
+    Pi -= quotients[:count].T @ W[:count]
+    np.fill_diagonal(Pi, diagonal)
+    return count
 
 
-def _quasi_invert(X: Floats, Y: Floats, j: int) -> None:
-    """The quasi-inversion of Π = X + iY at j; in place."""
-    column = X[:, j] + 1j * Y[:, j]
-    pivot = column[j]
-    quotient = column / pivot
-    parts = np.column_stack([column.real, column.imag])
-    X -= parts @ np.stack([quotient.real, -quotient.imag])
-    Y -= parts @ np.stack([quotient.imag, quotient.real])
-    quotient[j] = -1 / pivot
-    X[:, j] = X[j] = quotient.real
-    Y[:, j] = Y[j] = quotient.imag
+def _shift(Pi: Complexes, upper: Floats, lower: Floats) -> bool:
+    """Take the integer part off Re Π, in place; False, and nothing is done, if it is too large."""
+    rows, columns, S = _sparse_integer_part(Pi.real)
+    if _is_large(S, lower):
+        return False
+    Pi[rows, columns] -= S
+    moved = np.unique(rows)
+    upper[moved] -= csr_array((S, (rows, columns)), shape=Pi.shape)[moved] @ lower
+    return True
+
+
+def _is_large(S: Floats, lower: Floats) -> bool:
+    """Whether a shift is so large that digits of Π were lost: then exact values are needed."""
+    return bool(len(lower) * np.abs(S).max(initial=0.0) * np.abs(lower).max() > _LARGE)
 
 
 def _sparse_integer_part(X: Floats) -> tuple[Ints, Ints, Floats]:

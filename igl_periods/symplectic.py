@@ -120,17 +120,21 @@ def is_symplectic(U: NDArray[np.integer], M: NDArray[np.integer] | None = None) 
     g = len(U) // 2
     if U.shape != (2 * g, 2 * g):
         return False
-    U = U.astype(np.int64)
+    A = np.asarray(U, dtype=np.int64)
+    form = standard_form(g) if M is None else np.asarray(M, dtype=np.int64)
     try:
         if M is not None:
-            return np.array_equal(product(product(U, M.astype(np.int64)), U.T), standard_form(g))
-        half = product(U[:, :g], U[:, g:].T)
-        return np.array_equal(half - half.T, standard_form(g))
+            return np.array_equal(product(product(A, form), A.T), standard_form(g))
+        # U J Uᵀ is the difference of one product and its transpose.
+        half = product(A[:, :g], A[:, g:].T)
+        if np.abs(half).max(initial=0) < 2**62:
+            return np.array_equal(half - half.T, standard_form(g))
     except OverflowError:
-        return _is_symplectic_in_flint(U, standard_form(g) if M is None else M)
+        pass
+    return _is_symplectic_in_flint(A, form)
 
 
-def _is_symplectic_in_flint(U: Ints, M: NDArray[np.integer]) -> bool:
+def _is_symplectic_in_flint(U: Ints, M: Ints) -> bool:
     """The same for integers of any size."""
     left = flint.fmpz_mat(U.tolist())
     form = flint.fmpz_mat(standard_form(len(U) // 2).tolist())
@@ -153,11 +157,11 @@ def siegel_point(G: Floats) -> NDArray[np.complex128]:
     return _symmetric(X) + 1j * Y
 
 
-def form_action(gamma: NDArray[np.integer]) -> NDArray[np.integer]:
+def form_action(gamma: NDArray[np.integer]) -> Ints:
     """The change U = K γ K of the basis of forms that acts on Π as the Möbius map of γ."""
     g = len(gamma) // 2
     flip = np.r_[np.ones(g, dtype=np.int64), -np.ones(g, dtype=np.int64)]
-    return flip[:, None] * gamma * flip
+    return np.asarray(flip[:, None] * gamma * flip, dtype=np.int64)
 
 
 def williamson(D: Floats) -> tuple[Floats, Floats]:
@@ -183,10 +187,14 @@ def williamson(D: Floats) -> tuple[Floats, Floats]:
     ComplexError
         If D is not positive definite.
     """
-    g = len(D) // 2
+    return williamson_of_factor(cholesky_factor(D))
+
+
+def williamson_of_factor(R: Floats) -> tuple[Floats, Floats]:
+    """The same, as :func:`williamson`, for D = R Rᵀ with R lower triangular."""
+    g = len(R) // 2
     if g == 0:
         return np.zeros(0), np.zeros((0, 0))
-    R = cholesky_factor(D)
     A = R[:g].T @ R[g:]
     d, Q = _singular_pairs(A - A.T)
     root = R @ (Q / np.sqrt(d))
