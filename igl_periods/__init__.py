@@ -53,6 +53,7 @@ from .pipeline import period_matrix_from_weights as period_matrix_from_weights
 from .quality import mesh_quality as mesh_quality
 from .richardson import Extrapolation as Extrapolation
 from .richardson import richardson as richardson
+from .siegel import SIEGEL_GENUS_LIMIT as SIEGEL_GENUS_LIMIT
 from .siegel import SiegelReduction as SiegelReduction
 from .siegel import siegel_reduce as siegel_reduce
 

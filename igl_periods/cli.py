@@ -26,10 +26,11 @@ from .mesh import MeshReport
 from .periods import PeriodMatrix, siegel_reduced
 from .pipeline import period_matrix
 from .serialization import SCHEMA, result_to_json
+from .siegel import SIEGEL_GENUS_LIMIT
 from .stages import logger, stage
 from .summary import summary
 
-Result = tuple[PeriodMatrix, PeriodMatrix, NDArray[np.int64]]
+Result = tuple[PeriodMatrix, PeriodMatrix | None, NDArray[np.int64] | None]
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -71,6 +72,20 @@ def _parser() -> argparse.ArgumentParser:
     add_surface_arguments(compute, several=True)
     _add_options(compute)
     compute.add_argument("--json", action="store_true", help="print one JSON document")
+    reduction = compute.add_mutually_exclusive_group()
+    reduction.add_argument(
+        "--reduce",
+        action="store_true",
+        default=None,
+        help="Siegel reduce the matrix, whatever its genus (default: up to genus "
+        f"{SIEGEL_GENUS_LIMIT}, above which it takes minutes)",
+    )
+    reduction.add_argument(
+        "--no-reduce",
+        dest="reduce",
+        action="store_false",
+        help="leave the matrix in the marking of the mesh",
+    )
     compute.set_defaults(run=_compute)
     recognise = commands.add_parser(
         "identify",
@@ -132,11 +147,7 @@ def _identify(options: argparse.Namespace) -> int:
 
 def _compute(options: argparse.Namespace) -> int:
     surfaces, report = read_surfaces(options)
-    results = []
-    for K in surfaces:
-        pm = period_matrix(K, **_chosen(options))
-        with stage("Siegel reduction"):
-            results.append((pm, *siegel_reduced(pm)))
+    results = [_reduced(period_matrix(K, **_chosen(options)), options.reduce) for K in surfaces]
     if options.json:
         print(json.dumps(_document(options, results, report), indent=1))
         return 0
@@ -144,6 +155,16 @@ def _compute(options: argparse.Namespace) -> int:
     for k, result in enumerate(results):
         print(f"{_heading(k, len(results))}\n{summary(*result)}")
     return 0
+
+
+def _reduced(pm: PeriodMatrix, wanted: bool | None) -> Result:
+    """The matrix and its reduction, if that is wanted, or does not take too long."""
+    if wanted is None:
+        wanted = pm.genus <= SIEGEL_GENUS_LIMIT
+    if not wanted:
+        return pm, None, None
+    with stage("Siegel reduction"):
+        return pm, *siegel_reduced(pm, max_genus=pm.genus)
 
 
 def _document(
@@ -156,7 +177,8 @@ def _document(
         surfaces = {"components": documents}
     if options.double and options.component is None:
         surfaces["mesh_marking"]["real_structure"] = real_structure(results[0][0]).tolist()
-    given = {name: getattr(options, name) for name in ("repair", "double", "component")}
+    names = ("repair", "double", "component", "reduce")
+    given = {name: getattr(options, name) for name in names}
     return {
         "schema": SCHEMA,
         "version": importlib.metadata.version("igl_periods"),
@@ -190,11 +212,23 @@ def _show_stages() -> None:
 
 
 class _StageFormatter(logging.Formatter):
+    """One line for each stage, written over while it runs."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._stage = ""
+
     def format(self, record: logging.LogRecord) -> str:
-        name, seconds = getattr(record, "stage", None), getattr(record, "seconds", None)
-        if name is None:
-            return f"\r  {record.getMessage()}\n"
-        return f"\r  {name} …" if seconds is None else f"\r  {name:<20} {seconds:8.2f} s\n"
+        # Back to the start of the line, and clear what is left of a longer one.
+        line = "\r\x1b[K  "
+        if hasattr(record, "progress"):
+            return f"{line}{self._stage} … {record.getMessage()}"
+        if not hasattr(record, "stage"):
+            return f"{line}{record.getMessage()}\n"
+        self._stage, seconds = record.stage, getattr(record, "seconds", None)
+        if seconds is None:
+            return f"{line}{self._stage} …"
+        return f"{line}{self._stage:<20} {seconds:8.2f} s\n"
 
 
 if __name__ == "__main__":

@@ -25,6 +25,7 @@ from .scenes import (
     density_scene,
     quality_scene,
 )
+from .siegel import SIEGEL_GENUS_LIMIT
 from .stages import stage
 
 Complexes = NDArray[np.complex128]
@@ -91,9 +92,14 @@ def _add_form(command: argparse.ArgumentParser) -> None:
 
 
 def _reduced(options: argparse.Namespace) -> tuple[PeriodMatrix, MeshReport | None]:
-    """The Siegel-reduced period matrix of the surface that is meant, and the report of its mesh."""
+    """The period matrix of the surface that is meant, and the report of its mesh.
+
+    Siegel reduced, unless its genus is so large that this takes minutes.
+    """
     (K,), report = read_surfaces(options)
     pm = period_matrix(K)
+    if pm.genus > SIEGEL_GENUS_LIMIT:
+        return pm, report
     with stage("Siegel reduction"):
         return pm.reduced(), report
 

@@ -81,12 +81,17 @@ def cycles_to_json(K: DeltaComplex) -> dict[str, list[list[int]]]:
     return {"a": walks[:g], "b": walks[g:]}
 
 
-def result_to_json(pm: PeriodMatrix, reduced: PeriodMatrix, gamma: NDArray[Any]) -> dict[str, Any]:
+def result_to_json(
+    pm: PeriodMatrix, reduced: PeriodMatrix | None, gamma: NDArray[Any] | None
+) -> dict[str, Any]:
     """One surface: its matrix in the marking of the mesh, and Siegel reduced.
 
     ``reduced`` is the matrix in the marking ``gamma`` acts to: Π_reduced = (aΠ + b)(cΠ + d)⁻¹.
+    Both are None, and ``reduced_marking`` is null, if it was not reduced.
     """
-    K = pm.complex
+    K, reduced_marking = pm.complex, None
+    if reduced is not None and gamma is not None:
+        reduced_marking = {**period_matrix_to_json(reduced), "gamma": matrix_to_json(gamma)}
     return {
         "surface": {
             "vertices": K.n_vertices,
@@ -96,5 +101,5 @@ def result_to_json(pm: PeriodMatrix, reduced: PeriodMatrix, gamma: NDArray[Any])
             "mollification": K.mollification,
         },
         "mesh_marking": {**period_matrix_to_json(pm), "cycles": cycles_to_json(K)},
-        "reduced_marking": {**period_matrix_to_json(reduced), "gamma": matrix_to_json(gamma)},
+        "reduced_marking": reduced_marking,
     }

@@ -8,38 +8,55 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .periods import PeriodMatrix
+from .siegel import SIEGEL_GENUS_LIMIT
 
 _LARGEST_PRINTED = 8
 
 
-def summary(pm: PeriodMatrix, reduced: PeriodMatrix, gamma: NDArray[np.int64]) -> str:
+def summary(pm: PeriodMatrix, reduced: PeriodMatrix | None, gamma: NDArray[np.int64] | None) -> str:
     """What was computed, the reduced matrix, its transformation, and how far it can be off.
 
     Parameters
     ----------
     pm, reduced : PeriodMatrix
-        In the marking of the mesh, and Siegel reduced.
+        In the marking of the mesh, and Siegel reduced, or None if it was not.
     gamma : (2g, 2g) int
-        The transformation between them.
+        The transformation between them, or None.
     """
     if pm.genus == 0:
         return (
             "The surface is a sphere (genus 0): its period matrix is empty, there are no periods."
         )
+    shown = pm if reduced is None else reduced
     parts = [
-        f"Period matrix Π of genus {pm.genus}, Siegel reduced:",
-        _indented(_complex_rows(reduced)),
+        f"Period matrix Π of genus {pm.genus}, {_marking_in_words(pm, reduced)}:",
+        _indented(_complex_rows(shown)),
         "How far it can be off:",
-        _indented(_bound_in_words(reduced)),
-        "Π = (a Π₀ + b)(c Π₀ + d)⁻¹, Π₀ in the marking of the mesh, [[a, b], [c, d]] =",
-        _indented(_integer_rows(gamma)),
+        _indented(_bound_in_words(shown)),
     ]
+    if gamma is not None:
+        parts += [
+            "Π = (a Π₀ + b)(c Π₀ + d)⁻¹, Π₀ in the marking of the mesh, [[a, b], [c, d]] =",
+            _indented(_integer_rows(gamma)),
+        ]
     if pm.complex.mollification:
         parts.append(
             f"Degenerate triangles: {pm.complex.mollification:.3g} was added to the length of "
             "every edge, and the matrix and its bound are those of that surface."
         )
     return "\n".join(parts)
+
+
+def _marking_in_words(pm: PeriodMatrix, reduced: PeriodMatrix | None) -> str:
+    if reduced is not None:
+        return "Siegel reduced"
+    words = "in the marking of the mesh, not Siegel reduced"
+    if pm.genus > SIEGEL_GENUS_LIMIT:
+        words += (
+            f"\n(reduction takes minutes above genus {SIEGEL_GENUS_LIMIT}; --reduce does it "
+            "nevertheless)"
+        )
+    return words
 
 
 def _complex_rows(pm: PeriodMatrix) -> list[str]:
