@@ -33,6 +33,8 @@ Ints = NDArray[np.int64]
 _LARGEST_COEFFICIENT = 0.505
 _LARGEST_RATIO = 0.991
 _MOST_PASSES = 20
+# Exchanges of a sweep are made in so many parts: those further down concern fewer rows.
+_PARTS = 4
 _LARGE = 2.0**40
 
 
@@ -89,10 +91,10 @@ def _exchange(R: Floats, U: Floats) -> bool:
         before, mixed, after = R[i - 1, i - 1], R[i, i - 1], R[i, i]
         i = i[mixed * mixed + after * after < _LARGEST_RATIO * before * before]
         idle = 0 if i.size else idle + 1
-        if i.size:
-            _exchange_rows(R, U, i)
-            total += len(i)
-            progress("lattice reduction", total)
+        for part in np.array_split(i, _PARTS):
+            _exchange_rows(R, U, part)
+        total += len(i)
+        progress("lattice reduction", total)
     return total > 0
 
 
@@ -107,11 +109,15 @@ def _reduce_neighbours(R: Floats, U: Floats, i: Ints) -> None:
 
 def _exchange_rows(R: Floats, U: Floats, i: Ints) -> None:
     """Exchange the rows i − 1 and i, no two of them the same, and make R lower triangular again."""
+    if i.size == 0:
+        return
     for M in (R, U):
         M[i - 1], M[i] = M[i], M[i - 1]
     height = np.hypot(R[i - 1, i - 1], R[i - 1, i])
     cos, sin = R[i - 1, i - 1] / height, R[i - 1, i] / height
-    left, right = R[:, i - 1], R[:, i]
+    # Rows further up are 0 there.
+    below = R[i[0] - 1 :]
+    left, right = below[:, i - 1], below[:, i]
     # A reflection, so that R_ii, negative after a rotation, stays positive.
-    R[:, i - 1], R[:, i] = cos * left + sin * right, sin * left - cos * right
+    below[:, i - 1], below[:, i] = cos * left + sin * right, sin * left - cos * right
     R[i - 1, i] = 0.0

@@ -106,7 +106,8 @@ def _gains(D: Floats, i: Ints) -> Floats:
     N[:, g:] += sign * crossed[:, :g]
     energy = np.diagonal(D)
     S = energy + energy[i_star, None]
-    k = np.rint(np.divide(N, S, out=crossed), out=crossed)
+    crossed[:] = 0.0
+    k = np.rint(np.divide(N, S, out=crossed, where=S > 0), out=crossed)
     # −2kN − k²S with k = −rint(N/S).
     N *= 2.0
     S_k = S * k

@@ -48,9 +48,7 @@ _ULP = 0.5 * float(np.finfo(np.float64).eps)
 _ERROR = 8 * _ULP
 # Faces up to this sensitivity are taken together: most are far below it.
 _ORDINARY = 100.0
-# The power method, started anywhere, and kept away from vectors with zeros.
-_POWER_STEPS = 12
-_LEAST_COMPONENT = 1e-4
+_POWER_STEPS = 30
 
 
 def rounding_sensitivity(K: DeltaComplex) -> Floats:
@@ -149,13 +147,13 @@ def _skew_norm(R: Floats) -> float:
     """A bound of ‖Rᵀ |J| R‖₂ for R without negative entries.
 
     For a symmetric M without negative entries and any v > 0 it is at most max (Mv)_i / v_i; v
-    comes from a few steps of the power method.
+    comes from a few steps of the power method for 1 + M / ‖M‖, which stays positive.
     """
     (top, bottom), v, bound = np.split(R, 2), np.ones(len(R)), np.inf
     for _ in range(_POWER_STEPS):
         image = top.T @ (bottom @ v) + bottom.T @ (top @ v)
         bound = min(bound, float((image / v).max()))
-        v = image / image.max() + _LEAST_COMPONENT
+        v = v / v.max() + image / image.max()
     return bound
 
 

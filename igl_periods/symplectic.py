@@ -203,7 +203,9 @@ def williamson_of_factor(R: Floats) -> tuple[Floats, Floats]:
 
 def _singular_pairs(A: Floats) -> tuple[Floats, Floats]:
     """Singular values of a skew matrix, increasing, and right singular vectors as columns."""
-    squares, Q = scipy.linalg.eigh(A.T @ A)
+    # The eigenvalues come in pairs.  Divide and conquer keeps their vectors orthogonal to rounding;
+    # LAPACK's default for symmetric matrices loses two digits there, and is slower.
+    squares, Q = scipy.linalg.eigh(A.T @ A, driver="evd")
     if squares[0] > _LEAST_SQUARE * squares[-1]:
         return np.sqrt(squares), Q
     # Squaring would lose the small ones.

@@ -77,6 +77,39 @@ def test_cycles_in_json_are_closed_walks_on_the_mesh(torus, capsys):
         assert all(tuple(sorted(step)) in edges for step in steps)
 
 
+def test_without_reduction(torus, capsys):
+    assert main(["compute", str(torus), "--no-reduce"]) == 0
+    printed = capsys.readouterr().out
+    assert "genus 1, in the marking of the mesh, not Siegel reduced:" in printed
+    assert "takes minutes" not in printed
+    assert "is known to within" in printed
+    assert main(["compute", str(torus), "--no-reduce", "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert document["reduced_marking"] is None
+    assert document["options"]["reduce"] is False
+    assert main(["compute", str(torus), "--json"]) == 0
+    marking = json.loads(capsys.readouterr().out)["mesh_marking"]
+    assert document["mesh_marking"] == marking
+
+
+def test_high_genus_is_reduced_only_when_asked_for(torus, capsys, monkeypatch):
+    # As if the limit were below the genus of the torus.
+    for module in ("cli", "cli_pictures", "summary"):
+        monkeypatch.setattr(f"igl_periods.{module}.SIEGEL_GENUS_LIMIT", 0)
+    assert main(["compute", str(torus)]) == 0
+    printed = capsys.readouterr().out
+    assert "not Siegel reduced" in printed
+    assert "minutes above genus 0; --reduce does it" in printed
+    assert main(["compute", str(torus), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["reduced_marking"] is None
+    assert main(["compute", str(torus), "--reduce"]) == 0
+    assert "genus 1, Siegel reduced:" in capsys.readouterr().out
+    assert main(["compute", str(torus), "--reduce", "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert document["reduced_marking"]["gamma"]
+    assert document["options"]["reduce"] is True
+
+
 def test_extrinsic_weights_come_without_a_bound(torus, capsys):
     assert main(["compute", str(torus), "--weights", "extrinsic", "--json"]) == 0
     document = json.loads(capsys.readouterr().out)
@@ -186,7 +219,15 @@ def test_refused_meshes_exit_with_one(tmp_path, capsys, content, message):
     assert error.startswith("igl-periods: ")
 
 
-@pytest.mark.parametrize("arguments", [[], ["compute"], ["compute", "x.off", "--weights", "other"]])
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        [],
+        ["compute"],
+        ["compute", "x.off", "--weights", "other"],
+        ["compute", "x.off", "--reduce", "--no-reduce"],
+    ],
+)
 def test_wrong_usage_exits_with_two(arguments, capsys):
     with pytest.raises(SystemExit) as exit_:
         main(arguments)

@@ -25,6 +25,7 @@ import igl_periods as ip
 from igl_periods.delta_complex import cotan_weights, extrinsic_weights
 from igl_periods.harmonic import dirichlet_matrix, harmonic_potentials
 from igl_periods.homology import pairing
+from igl_periods.periods import siegel_reduced
 from igl_periods.symplectic import energy_matrix, form_action, is_symplectic, standard_form
 
 SQUARE_TILED = [(L_SHAPE, OMEGA_1), (BOLZA, OMEGA_2), (HEXAGON, OMEGA_3)]
@@ -319,6 +320,32 @@ def test_change_of_basis_is_the_moebius_action(computed):
     assert (back.cocycles != pm.cocycles).nnz == 0
     np.testing.assert_allclose(back.matrix, pm.matrix, rtol=0, atol=1e-11)
     assert reduced.rounding > pm.rounding
+
+
+@pytest.mark.parametrize("name", ["eight.off", "scaffolding.ply", "buckyball.obj"])
+def test_reduced_is_one_change_of_basis(computed, name):
+    pm = computed(name)
+    reduced, gamma = siegel_reduced(pm)
+    once = pm.change_basis(gamma)
+    assert np.array_equal(reduced.dirichlet, once.dirichlet)
+    assert reduced.rounding == once.rounding
+    assert (reduced.cocycles != once.cocycles).nnz == 0
+    basis = reduced.cocycles
+    assert np.array_equal(pairing(pm.complex, basis, basis), standard_form(pm.genus))
+    # The matrix is that of the mesh, moved; rounding is nothing beside the bound.
+    moved = ip.siegel_transform(gamma, pm.matrix)
+    assert ip.siegel_distance(moved, reduced.matrix) < 1e-10
+    assert abs(reduced.bound - pm.bound) < 1e-9
+    assert reduced.rounding_allowance < 1e-6 * reduced.bound
+    assert np.abs(np.diag(reduced.matrix)).min() >= 1 - 1e-12
+    assert np.abs(reduced.matrix.real).max() <= 0.5 + 1e-12
+
+
+def test_reduction_has_a_limit(computed):
+    pm = computed("eight.off")
+    with pytest.raises(ValueError, match=r"genus 2 .* up to genus 1 unless .* max_genus=2 does"):
+        pm.reduced(max_genus=1)
+    assert np.array_equal(pm.reduced(max_genus=2).matrix, pm.reduced().matrix)
 
 
 @pytest.mark.parametrize(

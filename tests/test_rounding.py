@@ -10,7 +10,8 @@ from random_surfaces import L_SHAPE, noisy_torus, random_gluing, random_lengths
 
 import igl_periods as ip
 from igl_periods.delaunay import delaunay_flips
-from igl_periods.rounding import congruence
+from igl_periods.rounding import algebraic_allowance, congruence
+from igl_periods.symplectic import standard_form
 from igl_periods.triangles import length_sensitivity
 
 
@@ -136,3 +137,86 @@ def test_congruence_reports_lost_digits():
     assert 1e-9 < loss < 1e-6
     _, kept = congruence(np.eye(2, dtype=int), np.eye(2))
     assert kept < 1e-14
+
+
+def inverse_positive(n, seed):
+    """D with D⁻¹ ≥ 0 entry by entry: the inverse of a positive definite positive matrix."""
+    B = np.random.default_rng(seed).uniform(0, 1, (n, n))
+    D = np.linalg.inv(B @ B.T + np.eye(n))
+    return 0.5 * (D + D.T)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_congruence_bounds_the_worst_error_of_entries_and_is_sharp(seed):
+    # Errors of 8 ulps of √(D_ii D_jj), all upwards: the worst there are if D⁻¹ is positive.
+    D = inverse_positive(8, seed)
+    _, loss = congruence(np.eye(8, dtype=int), D)
+    ulp = np.finfo(float).eps / 2
+    t = np.sqrt(np.diag(D))
+    worst = 8 * ulp * float(np.abs(np.linalg.eigvals(np.linalg.solve(D, np.outer(t, t)))).max())
+    assert worst < loss < 1.5 * worst
+    # No other signs do more, in any basis.
+    rng = np.random.default_rng(seed)
+    for _ in range(20):
+        E = (
+            8
+            * ulp
+            * np.outer(t, t)
+            * (lambda S: np.triu(S) + np.triu(S, 1).T)(rng.choice([-1.0, 1.0], (8, 8)))
+        )
+        assert np.abs(np.linalg.eigvals(np.linalg.solve(D, E))).max() <= worst * (1 + 1e-9)
+
+
+@pytest.mark.parametrize("largest", [1, 10, 100])
+@pytest.mark.parametrize("seed", range(3))
+def test_products_are_right_in_their_leading_digits(seed, largest):
+    # Against rational arithmetic: half an ulp of each entry, whatever cancels in the sums.
+    rng = np.random.default_rng(seed)
+    n = 10
+    U = np.eye(n, dtype=int)
+    U[1:, 0] = rng.integers(-largest, largest + 1, n - 1)
+    A = rng.normal(size=(n, n))
+    D = A @ A.T + np.eye(n)
+    D = 0.5 * (D + D.T)
+    changed, loss = congruence(U, D)
+    rational = flint.fmpz_mat(U.tolist()) * _rational(D) * flint.fmpz_mat(U.T.tolist())
+    error = rational - _rational(changed)
+    E = np.array([float(v.p) / float(v.q) for v in error.entries()]).reshape(n, n)
+    scale = np.sqrt(np.diag(changed))
+    assert np.all(np.abs(E) <= 2.0**-52 * np.outer(scale, scale))
+    relative = np.abs(np.linalg.eigvals(np.linalg.solve(changed, E))).max()
+    assert relative < loss
+
+
+def _rational(M):
+    return flint.fmpq_mat([[flint.fmpq(*v.as_integer_ratio()) for v in row] for row in M.tolist()])
+
+
+def test_the_loss_is_the_same_in_every_basis():
+    # What rounding did to D counts as in the basis of D, however unlike the new one is.
+    rng = np.random.default_rng(2)
+    A = rng.normal(size=(30, 30))
+    D = A @ A.T / 30 + np.eye(30)
+    shear = np.eye(30, dtype=int) + np.diag(np.ones(29, dtype=int), -1)
+    _, kept = congruence(np.eye(30, dtype=int), D)
+    sheared, loss = congruence(shear, D)
+    t = np.abs(shear) @ np.sqrt(np.diag(D))
+    in_the_new_basis = t @ np.abs(np.linalg.inv(sheared)) @ t
+    assert loss > kept
+    assert loss < 0.1 * np.finfo(float).eps * 4 * in_the_new_basis
+
+
+@pytest.mark.parametrize("n", [2, 8, 60])
+def test_allowance_of_the_algebra_contains_its_norms(n):
+    # The skew product Rᵀ J R, in norm, and what inverting D amplifies.
+    rng = np.random.default_rng(n)
+    R = np.tril(rng.normal(size=(n, n))) + 3 * np.eye(n)
+    R[0, 0] *= 1e3
+    J = np.abs(standard_form(n // 2))
+    skew = np.linalg.norm(np.abs(R).T @ J @ np.abs(R), 2)
+    D = R @ R.T
+    t = np.sqrt(np.diag(D))
+    unit = 4 * n * np.finfo(float).eps / 2
+    exact = unit * (skew + t @ np.abs(np.linalg.inv(D)) @ t)
+    assert exact * (1 - 1e-9) <= algebraic_allowance(np.linalg.cholesky(D)) <= 1.2 * exact
+    assert algebraic_allowance(np.zeros((0, 0))) == 0.0

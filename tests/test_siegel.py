@@ -3,16 +3,25 @@
 import time
 from fractions import Fraction
 
+import flint
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from modular_words import random_point, random_word
 
+from igl_periods.all_swap import all_swap_lll
 from igl_periods.errors import NotASiegelPointError
 from igl_periods.half_space import check_symplectic
-from igl_periods.lattice import EnumerationLimitError, lll_basis, short_vectors, shortest_first
+from igl_periods.lattice import (
+    EnumerationLimitError,
+    is_lll_reduced,
+    lll_basis,
+    short_vectors,
+    shortest_first,
+)
 from igl_periods.siegel import (
+    SIEGEL_GENUS_LIMIT,
     check_siegel_point,
     siegel_distance,
     siegel_reduce,
@@ -113,6 +122,102 @@ def test_high_genus(scale):
     assert time.process_time() - start < 1.0
     assert_reduced(matrix)
     assert np.array_equal(check_symplectic(gamma, 31), gamma)
+
+
+# --- high genus --------------------------------------------------------------------------------
+
+
+def exactly_lll_reduced(U: np.ndarray, Y: np.ndarray) -> bool:
+    """The definition for U Y Uᵀ, by Gram–Schmidt in ball arithmetic of 200 bits."""
+    with flint.ctx.workprec(200):
+        basis = flint.arb_mat(U.tolist())
+        gram = (basis * flint.arb_mat(Y.tolist()) * basis.transpose()).tolist()
+        r, mu = [], []
+        for i, row in enumerate(gram):
+            r.append([])
+            mu.append([])
+            for j in range(i + 1):
+                r[i].append(row[j] - sum((mu[j][k] * r[i][k] for k in range(j)), flint.arb(0)))
+                if j < i:
+                    mu[i].append(r[i][j] / r[j][j])
+        height = [r[i][i] for i in range(len(Y))]
+        lovasz = (height[i] >= (0.99 - mu[i][i - 1] ** 2) * height[i - 1] for i in range(1, len(Y)))
+        return all(abs(m) <= 0.51 for row in mu for m in row) and all(lovasz)
+
+
+@pytest.mark.parametrize("n", [40, 41, 60])
+def test_large_lattices_are_reduced_by_the_definition(n):
+    rng = np.random.default_rng(n)
+    A = rng.standard_normal((n, n)) / np.sqrt(n)
+    V = np.eye(n)
+    for i, j in rng.integers(n, size=(3 * n, 2)):
+        V[i] += rng.integers(-1, 2) * V[j] * (i != j)
+    Y = V @ (A @ A.T + 0.1 * np.eye(n)) @ V.T
+    U = all_swap_lll(Y)
+    assert exactly_lll_reduced(U, Y)
+    assert not exactly_lll_reduced(np.eye(n, dtype=int), Y)
+    assert abs(int(flint.fmpz_mat(U.tolist()).det())) == 1
+    assert np.array_equal(lll_basis(Y), U)
+    assert is_lll_reduced(U @ Y @ U.T, 1e-9)
+    assert not is_lll_reduced(Y, 1e-9)
+
+
+def test_forms_too_far_from_round_are_reduced_in_integers():
+    # A basis of the lattice of (x, 10^9 x_1 + …): it takes more digits than a double has.
+    rng = np.random.default_rng(0)
+    n = 40
+    row = rng.integers(10**5, 10**6, n).astype(float)
+    Y = np.eye(n) + np.outer(row, row) * 1e2
+    assert all_swap_lll(Y) is None
+    U = lll_basis(Y)
+    assert exactly_lll_reduced(U, Y)
+
+
+@pytest.mark.parametrize(("g", "length"), [(17, 100), (45, 200), (72, 200)])
+def test_reduction_keeps_its_promises_at_high_genus(g, length):
+    rng = np.random.default_rng(g)
+    Pi = siegel_transform(random_word(g, length, rng), random_point(g, rng))
+    matrix, gamma = siegel_reduce(Pi)
+    assert_reduced(matrix)
+    assert exactly_lll_reduced(np.eye(g, dtype=int), matrix.imag)
+    J = standard_form(g)
+    assert np.array_equal(gamma @ J @ gamma.T, J)
+    assert np.abs(mobius(gamma, Pi) - matrix).max() < 1e-8
+    # A change of marking, so it is an isometry.
+    other = siegel_transform(random_word(g, length, rng), random_point(g, rng))
+    distance = siegel_distance(Pi, other)
+    assert abs(siegel_distance(matrix, siegel_transform(gamma, other)) - distance) < 1e-8 * distance
+    # det Y does not fall, and there is nothing left to do.
+    assert np.linalg.slogdet(matrix.imag)[1] > np.linalg.slogdet(Pi.imag)[1]
+    again, nothing = siegel_reduce(matrix)
+    assert np.array_equal(nothing, np.eye(2 * g, dtype=np.int64))
+    assert np.array_equal(again, matrix)
+
+
+def test_symmetric_points_of_high_genus():
+    # Real parts of exactly ½ and |Π_jj| = 1 stay as they are.
+    g = 50
+    Pi = (0.5 + 1j * np.sqrt(3) / 2) * np.eye(g)
+    word = random_word(g, 200, np.random.default_rng(1))
+    matrix, _ = siegel_reduce(siegel_transform(word, Pi))
+    assert_reduced(matrix)
+    assert np.linalg.det(matrix.imag) == pytest.approx((np.sqrt(3) / 2) ** g, rel=1e-9)
+
+
+def test_a_nearly_degenerate_point_of_high_genus():
+    Pi = np.diag(1j * np.logspace(-6, 6, 20)) + 0.123456789
+    matrix, gamma = siegel_reduce(Pi)
+    assert_reduced(matrix)
+    assert np.array_equal(siegel_transform(gamma, Pi), matrix)
+
+
+def test_very_high_genus_is_reduced_only_when_asked_for():
+    with pytest.raises(ValueError, match=rf"genus {SIEGEL_GENUS_LIMIT + 1} takes minutes.*max_gen"):
+        siegel_reduce(1j * np.eye(SIEGEL_GENUS_LIMIT + 1))
+    Pi = np.diag([1j, 2j, 3j])
+    with pytest.raises(ValueError, match=r"genus 3 .* up to genus 2 unless .* max_genus=3 does"):
+        siegel_reduce(Pi, max_genus=2)
+    assert np.array_equal(siegel_reduce(Pi, max_genus=3).matrix, Pi)
 
 
 # --- published cases ---------------------------------------------------------------------------

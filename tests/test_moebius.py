@@ -1,0 +1,105 @@
+"""The action of the modular group at high genus, against exact rational arithmetic."""
+
+import flint
+import numpy as np
+import pytest
+from modular_words import random_point, random_word
+
+from igl_periods.half_space import siegel_transform
+from igl_periods.integer_matrices import product, unimodular_inverse
+from igl_periods.symplectic import is_symplectic, standard_form
+
+HIGH = 42
+
+
+def exact_action(gamma, Pi):
+    """Re and Im of γ · Π, correctly rounded: a linear system over Q for [[X, −Y], [Y, X]]."""
+    g = len(Pi)
+    X, Y = Pi.real, Pi.imag
+    doubled = flint.fmpq_mat(_rational(np.block([[X, -Y], [Y, X]])))
+    a, b, c, d = (
+        flint.fmpq_mat(flint.fmpz_mat(np.kron(np.eye(2, dtype=np.int64), block).tolist()))
+        for block in (gamma[:g, :g], gamma[:g, g:], gamma[g:, :g], gamma[g:, g:])
+    )
+    Z = (c * doubled + d).transpose().solve((a * doubled + b).transpose()).transpose()
+    # Division of Python's integers is correctly rounded.
+    value = np.array([int(v.p) / int(v.q) for v in Z.entries()]).reshape(2 * g, 2 * g)
+    return value[:g, :g] + 1j * value[g:, :g]
+
+
+def _rational(M):
+    return [[flint.fmpq(*v.as_integer_ratio()) for v in row] for row in M.tolist()]
+
+
+@pytest.mark.parametrize("length", [0, 60, 200])
+def test_every_entry_is_right_to_rounding(length):
+    rng = np.random.default_rng(length)
+    Pi, gamma = random_point(HIGH, rng), random_word(HIGH, length, rng, 10**6)
+    moved = siegel_transform(gamma, Pi)
+    exact = exact_action(gamma, Pi)
+    scale = np.abs(np.diag(exact)).min()
+    assert np.abs(moved - exact).max() <= 2.0**-52 * max(scale, np.abs(exact).max())
+
+
+def test_plain_floating_point_is_not():
+    rng = np.random.default_rng(5)
+    Pi, gamma = random_point(HIGH, rng), random_word(HIGH, 200, rng, 10**6)
+    a, b, c, d = (block for half in np.split(gamma, 2) for block in np.split(half, 2, 1))
+    plain = (a @ Pi + b) @ np.linalg.inv(c @ Pi + d)
+    assert np.abs(plain - exact_action(gamma, Pi)).max() > 2.0**-50
+
+
+@pytest.mark.parametrize("height", [1e-9, 1e9])
+def test_points_near_the_boundary(height):
+    # One correction is not enough there, or leading bits have no common unit with integers.
+    rng = np.random.default_rng(1)
+    Pi, gamma = random_point(HIGH, rng), random_word(HIGH, 60, rng)
+    Pi = Pi.real + 1j * height * Pi.imag
+    moved, exact = siegel_transform(gamma, Pi), exact_action(gamma, Pi)
+    scale = np.abs(np.diag(exact)).min()
+    assert np.abs(moved - exact).max() <= 2.0**-52 * max(scale, np.abs(exact).max())
+
+
+# Integers
+
+
+@pytest.mark.parametrize("largest", [3, 10**6, 10**8])
+def test_products_are_exact(largest):
+    rng = np.random.default_rng(largest)
+    A, B = rng.integers(-largest, largest + 1, (2, 40, 40))
+    exact = A.astype(object) @ B.astype(object)
+    assert np.array_equal(product(A, B), exact)
+
+
+def test_products_beyond_64_bits():
+    A = np.full((2, 2), 2**40)
+    with pytest.raises(OverflowError):
+        product(A, A)
+
+
+@pytest.mark.parametrize("size", [1, 30])
+@pytest.mark.parametrize("largest", [1, 40])
+def test_inverses_are_exact(size, largest):
+    # Triangular factors: of determinant −1, and of inverses with huge entries.
+    rng = np.random.default_rng(size)
+    for _ in range(3):
+        L = np.tril(rng.integers(-largest, largest + 1, (size, size)), -1)
+        L[:, size // 3 + 1 :] = 0
+        U = (L + np.eye(size, dtype=np.int64))[::-1]
+        inverse = unimodular_inverse(U)
+        assert np.array_equal(inverse.astype(object) @ U.astype(object), np.eye(size))
+    assert unimodular_inverse(np.zeros((0, 0), dtype=np.int64)).shape == (0, 0)
+
+
+def test_symplectic_matrices_of_any_size():
+    # Sums that do not fit into 64 bits, right and wrong by a little.
+    k = 2**40
+    shear = np.array([[1, k], [0, 1]])
+    big = np.array([[1 + k * k // 2**20, k // 2**20], [k, 1]])
+    assert is_symplectic(shear)
+    assert is_symplectic(big)
+    assert not is_symplectic(big + np.array([[0, 0], [0, 1]]))
+    assert is_symplectic(shear, standard_form(1))
+    huge = np.array([[2**62, 2**62 - 1], [1, 1]])
+    assert is_symplectic(huge)
+    assert not is_symplectic(huge + np.array([[0, 0], [1, 0]]))

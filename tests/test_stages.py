@@ -1,0 +1,85 @@
+"""What is logged while a computation runs, and how a terminal shows it."""
+
+import io
+import logging
+
+import numpy as np
+import pytest
+
+from igl_periods import stages
+from igl_periods.cli import _StageFormatter
+from igl_periods.siegel import siegel_reduce
+from igl_periods.stages import logger, progress, stage
+
+
+@pytest.fixture
+def impatient(monkeypatch):
+    """Every report of progress is logged."""
+    monkeypatch.setattr(stages, "_INTERVAL", 0.0)
+
+
+def test_three_kinds_of_records(caplog, impatient):
+    with caplog.at_level(logging.INFO, logger="igl_periods"), stage("counting"):
+        progress("sheep", 3, 10)
+        progress("goats", 12345)
+    started, first, second, done = caplog.records
+    assert (started.stage, started.seconds) == ("counting", None)
+    assert (first.progress, first.done, first.total) == ("sheep", 3, 10)
+    assert (second.progress, second.done, second.total) == ("goats", 12345, None)
+    assert done.stage == "counting"
+    assert done.seconds >= 0
+    messages = [record.getMessage() for record in caplog.records[:3]]
+    assert messages == ["counting …", "sheep: 3 of 10", "goats: 12,345"]
+
+
+def test_progress_is_not_reported_all_the_time(caplog):
+    with caplog.at_level(logging.INFO, logger="igl_periods"), stage("counting"):
+        for k in range(1000):
+            progress("sheep", k, 1000)
+    reports = [record for record in caplog.records if hasattr(record, "progress")]
+    # At most one in each interval, and none at once.
+    assert len(reports) <= caplog.records[-1].seconds / stages._INTERVAL
+
+
+def test_a_stage_that_fails(caplog):
+    with (
+        caplog.at_level(logging.INFO, logger="igl_periods"),
+        pytest.raises(ValueError, match="black"),
+        stage("counting"),
+    ):
+        raise ValueError("a black sheep")
+    assert caplog.records[-1].getMessage() == "counting failed"
+
+
+def test_siegel_reduction_reports_its_parts(caplog, impatient):
+    rng = np.random.default_rng(0)
+    A = rng.standard_normal((50, 50))
+    Pi = rng.uniform(-1, 1, (50, 50)) + 1j * (A @ A.T / 50 + 0.1 * np.eye(50))
+    with caplog.at_level(logging.INFO, logger="igl_periods"):
+        siegel_reduce(0.5 * (Pi + Pi.T))
+    reported = [(record.progress, record.done) for record in caplog.records]
+    for part in ("pairwise moves", "lattice reduction", "quasi-inversions"):
+        assert max(done for name, done in reported if name == part) > 0
+
+
+def test_a_terminal_shows_one_line_for_each_stage(impatient):
+    handler = logging.StreamHandler(io.StringIO())
+    handler.terminator = ""
+    handler.setFormatter(_StageFormatter())
+    logger.addHandler(handler)
+    logger.setLevel(logging.INFO)
+    try:
+        with stage("counting"):
+            progress("sheep", 3, 10)
+        logger.info("a remark")
+    finally:
+        logger.removeHandler(handler)
+        logger.setLevel(logging.NOTSET)
+    shown = handler.stream.getvalue()
+    # Each record starts the line again and clears it; only finished ones leave it.
+    assert shown.count("\r\x1b[K") == 4
+    lines = [line.split("\r\x1b[K")[-1] for line in shown.split("\n")]
+    assert "counting … sheep: 3 of 10" in shown
+    assert shown.count("\n") == 2
+    assert lines[0].startswith("  counting  ")
+    assert lines[1] == "  a remark"
