@@ -33,6 +33,8 @@ Ints = NDArray[np.int64]
 _LARGEST_COEFFICIENT = 0.505
 _LARGEST_RATIO = 0.991
 _MOST_PASSES = 20
+# Sweeps of one pass per row; there are about one.
+_MOST_SWEEPS = 50
 # Exchanges of a sweep are made in so many parts: those further down concern fewer rows.
 _PARTS = 4
 _LARGE = 2.0**40
@@ -83,18 +85,20 @@ def _reduce_coefficients(R: Floats, U: Floats) -> bool:
 
 def _exchange(R: Floats, U: Floats) -> bool:
     """Exchange neighbours until the condition of Lovász holds; in place.  Whether any were."""
-    n, total, parity, idle = len(R), 0, 0, 0
-    while idle < 2:
-        i = np.arange(1 + parity, n, 2)
-        parity = 1 - parity
+    n, total, idle = len(R), 0, 0
+    for sweep in range(_MOST_SWEEPS * n):
+        if idle == 2:
+            break
+        i = np.arange(1 + sweep % 2, n, 2)
         _reduce_neighbours(R, U, i)
         before, mixed, after = R[i - 1, i - 1], R[i, i - 1], R[i, i]
         i = i[mixed * mixed + after * after < _LARGEST_RATIO * before * before]
         idle = 0 if i.size else idle + 1
         for part in np.array_split(i, _PARTS):
             _exchange_rows(R, U, part)
-        total += len(i)
-        progress("lattice reduction", total)
+        if i.size:
+            total += len(i)
+            progress("exchanges in the lattice", total)
     return total > 0
 
 

@@ -341,6 +341,20 @@ def test_reduced_is_one_change_of_basis(computed, name):
     assert np.abs(reduced.matrix.real).max() <= 0.5 + 1e-12
 
 
+def test_several_reductions_are_one_product(computed, monkeypatch):
+    # As if the first reduction had left something to do.
+    pm = computed("eight.off")
+    T, J = np.eye(4, dtype=int) + np.diag([1, 1], 2), standard_form(2)
+    gammas = iter([T, J, np.eye(4, dtype=int)])
+    monkeypatch.setattr(
+        "igl_periods.periods.siegel_reduce", lambda _, **__: SimpleNamespace(gamma=next(gammas))
+    )
+    reduced, total = siegel_reduced(pm)
+    assert np.array_equal(total, J @ T)
+    moved = ip.siegel_transform(J, ip.siegel_transform(T, pm.matrix))
+    np.testing.assert_allclose(reduced.matrix, moved, rtol=0, atol=1e-11)
+
+
 def test_reduction_has_a_limit(computed):
     pm = computed("eight.off")
     with pytest.raises(ValueError, match=r"genus 2 .* up to genus 1 unless .* max_genus=2 does"):

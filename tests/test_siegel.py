@@ -182,6 +182,7 @@ def test_reduction_keeps_its_promises_at_high_genus(g, length):
     assert exactly_lll_reduced(np.eye(g, dtype=int), matrix.imag)
     J = standard_form(g)
     assert np.array_equal(gamma @ J @ gamma.T, J)
+    assert np.array_equal(siegel_transform(gamma, Pi), matrix)
     assert np.abs(mobius(gamma, Pi) - matrix).max() < 1e-8
     # A change of marking, so it is an isometry.
     other = siegel_transform(random_word(g, length, rng), random_point(g, rng))

@@ -58,7 +58,7 @@ def test_siegel_reduction_reports_its_parts(caplog, impatient):
     with caplog.at_level(logging.INFO, logger="igl_periods"):
         siegel_reduce(0.5 * (Pi + Pi.T))
     reported = [(record.progress, record.done) for record in caplog.records]
-    for part in ("pairwise moves", "lattice reduction", "quasi-inversions"):
+    for part in ("pairwise moves", "exchanges in the lattice", "quasi-inversions"):
         assert max(done for name, done in reported if name == part) > 0
 
 
