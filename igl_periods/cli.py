@@ -78,7 +78,7 @@ def _parser() -> argparse.ArgumentParser:
         action="store_true",
         default=None,
         help="Siegel reduce the matrix, whatever its genus (default: up to genus "
-        f"{SIEGEL_GENUS_LIMIT}, above which it takes minutes)",
+        f"{SIEGEL_GENUS_LIMIT}, above which it takes a minute and more)",
     )
     reduction.add_argument(
         "--no-reduce",

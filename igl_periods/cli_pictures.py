@@ -94,7 +94,7 @@ def _add_form(command: argparse.ArgumentParser) -> None:
 def _reduced(options: argparse.Namespace) -> tuple[PeriodMatrix, MeshReport | None]:
     """The period matrix of the surface that is meant, and the report of its mesh.
 
-    Siegel reduced, unless its genus is so large that this takes minutes.
+    Siegel reduced, unless its genus is so large that this takes long.
     """
     (K,), report = read_surfaces(options)
     pm = period_matrix(K)

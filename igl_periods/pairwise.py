@@ -43,6 +43,8 @@ _LEAST_GAIN = 1e-9
 # Integers above this end the reduction: D is too far from round for its digits to tell the moves.
 _LARGE = 2.0**40
 _LARGEST_MULTIPLE = 2.0**20
+# There are seldom a few hundred rounds; without exact energies an end is not certain.
+_MOST_ROUNDS = 10_000
 # Numbers looked at together.
 _NUMBERS_AT_ONCE = 2_000_000
 
@@ -64,7 +66,10 @@ def pairwise_reduction(D: Floats) -> Ints:
     D, U = D.copy(), np.eye(len(D), dtype=np.int64)
     gain, other = _best_moves(D, np.arange(len(D)))
     total = 0
-    while (i := _disjoint(gain, other)).size:
+    for _ in range(_MOST_ROUNDS):
+        i = _disjoint(gain, other)
+        if i.size == 0:
+            break
         j = other[i]
         planes = np.unique(np.concatenate([i, j]) % (len(D) // 2))
         _move(D, U, i, j)

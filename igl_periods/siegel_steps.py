@@ -39,8 +39,9 @@ _SHORTEST_VECTOR_GENUS = 8
 _LARGE = 1e6
 
 
-# Above this genus so many quasi-inversions are made before the whole matrix is changed and shifted.
-_ONE_BY_ONE_GENUS = 16
+# Up to this genus quasi-inversions are made one by one.  Above it so many are made before the whole
+# matrix is changed and shifted.
+SMALL_GENUS = 16
 _AT_ONCE = 32
 # What is reduced up to this needs no other start, only a few more steps.
 _NEARLY = 1e-6
@@ -76,7 +77,7 @@ def inversion_step(Pi: Complexes, most: int) -> Step:
     moved = Pi.copy()
     # Small integers, kept in floating point for the sake of fast products.
     upper, lower = np.split(np.eye(2 * g), 2)
-    at_once = 1 if g <= _ONE_BY_ONE_GENUS else _AT_ONCE
+    at_once = 1 if g <= SMALL_GENUS else _AT_ONCE
     while g and done < most:
         count = _quasi_invert(moved, upper, lower, min(at_once, most - done))
         done += count

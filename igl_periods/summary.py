@@ -53,7 +53,7 @@ def _marking_in_words(pm: PeriodMatrix, reduced: PeriodMatrix | None) -> str:
     words = "in the marking of the mesh, not Siegel reduced"
     if pm.genus > SIEGEL_GENUS_LIMIT:
         words += (
-            f"\n(reduction takes minutes above genus {SIEGEL_GENUS_LIMIT}; --reduce does it "
+            f"\n(that takes a minute and more above genus {SIEGEL_GENUS_LIMIT}; --reduce does it "
             "nevertheless)"
         )
     return words

@@ -213,10 +213,10 @@ def test_a_nearly_degenerate_point_of_high_genus():
 
 
 def test_very_high_genus_is_reduced_only_when_asked_for():
-    with pytest.raises(ValueError, match=rf"genus {SIEGEL_GENUS_LIMIT + 1} takes minutes.*max_gen"):
+    with pytest.raises(ValueError, match=rf"has genus {SIEGEL_GENUS_LIMIT + 1}: .* max_genus="):
         siegel_reduce(1j * np.eye(SIEGEL_GENUS_LIMIT + 1))
     Pi = np.diag([1j, 2j, 3j])
-    with pytest.raises(ValueError, match=r"genus 3 .* up to genus 2 unless .* max_genus=3 does"):
+    with pytest.raises(ValueError, match=r"up to genus 2 unless .* genus 3: .* max_genus=3 does"):
         siegel_reduce(Pi, max_genus=2)
     assert np.array_equal(siegel_reduce(Pi, max_genus=3).matrix, Pi)
 
