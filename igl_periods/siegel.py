@@ -48,7 +48,6 @@ from .symplectic import energy_matrix, form_action
 __all__ = [
     "SIEGEL_GENUS_LIMIT",
     "SiegelReduction",
-    "check_siegel_genus",
     "check_siegel_point",
     "siegel_distance",
     "siegel_reduce",
@@ -120,7 +119,7 @@ def siegel_reduce(Pi: ArrayLike, *, max_genus: int = SIEGEL_GENUS_LIMIT) -> Sieg
     """
     start = check_siegel_point(Pi)
     g = len(start)
-    check_siegel_genus(g, max_genus)
+    _check_genus(g, max_genus)
     small = g <= SMALL_GENUS
     point, gamma = start, np.eye(2 * g, dtype=np.int64)
     # At high genus a pairwise reduction comes first, and points are moved in floating point.
@@ -139,14 +138,15 @@ def siegel_reduce(Pi: ArrayLike, *, max_genus: int = SIEGEL_GENUS_LIMIT) -> Sieg
             return SiegelReduction(point, gamma)
         if not step.idle:
             gamma = exact_product(step.gamma, gamma)
-            exact = small or not hasty
-            point = moebius(gamma, start) if exact else step.point
+            moved = None if small or not hasty else step.point
+            exact = moved is None
+            point = moebius(gamma, start) if moved is None else moved
         elif n_idle == 2:
             point, exact, n_idle = moebius(gamma, start), True, 0
     raise AssertionError("unreachable: the walk along the orbit ends")
 
 
-def check_siegel_genus(genus: int, max_genus: int = SIEGEL_GENUS_LIMIT) -> None:
+def _check_genus(genus: int, max_genus: int) -> None:
     """Raise ValueError if a genus is too large for Siegel reduction."""
     if genus > max_genus:
         raise ValueError(

@@ -37,8 +37,6 @@ _EPSILON = 1e-12
 _SHORTEST_VECTOR_GENUS = 8
 # Integers above this end a run of quasi-inversions in floating point.
 _LARGE = 1e6
-
-
 # Up to this genus quasi-inversions are made one by one.  Above it so many are made before the whole
 # matrix is changed and shifted.
 SMALL_GENUS = 16
@@ -48,9 +46,12 @@ _NEARLY = 1e-6
 
 
 class Step(NamedTuple):
-    """A modular transformation, and the matrix moved by it in floating point."""
+    """A modular transformation, and the matrix moved by it in floating point.
 
-    point: Complexes
+    ``point`` is None where that has lost so many digits that it has to be computed anew.
+    """
+
+    point: Complexes | None
     gamma: Ints
 
     @property
@@ -78,14 +79,16 @@ def inversion_step(Pi: Complexes, most: int) -> Step:
     # Small integers, kept in floating point for the sake of fast products.
     upper, lower = np.split(np.eye(2 * g), 2)
     at_once = 1 if g <= SMALL_GENUS else _AT_ONCE
-    while g and done < most:
+    good = True
+    while g and good and done < most:
         count = _quasi_invert(moved, upper, lower, min(at_once, most - done))
-        done += count
-        if count == 0 or not _shift(moved, upper, lower):
+        if count == 0:
             break
+        done += count
+        good = _shift(moved, upper, lower)
         progress("quasi-inversions", done)
     point = _symmetric(moved.real) + 1j * _symmetric(moved.imag)
-    return Step(point, np.vstack([upper, lower]).astype(np.int64))
+    return Step(point if good else None, np.vstack([upper, lower]).astype(np.int64))
 
 
 def is_nearly_reduced(Pi: Complexes) -> bool:

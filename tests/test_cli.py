@@ -15,7 +15,8 @@ from matching import mobius
 from random_surfaces import noisy_torus, torus_of_revolution
 
 import igl_periods as ip
-from igl_periods.cli import main
+from igl_periods.cli import _parser, main
+from igl_periods.cli_pictures import _reduced
 from igl_periods.symplectic import standard_form
 
 DATA = Path(__file__).parents[1] / "data"
@@ -108,6 +109,14 @@ def test_high_genus_is_reduced_only_when_asked_for(torus, capsys, monkeypatch):
     document = json.loads(capsys.readouterr().out)
     assert document["reduced_marking"]["gamma"]
     assert document["options"]["reduce"] is True
+
+
+def test_pictures_of_high_genus_are_in_the_marking_of_the_mesh(torus, monkeypatch):
+    options = _parser().parse_args(["render", str(torus), "-o", "torus.png"])
+    pm = ip.period_matrix(*ip.load_mesh(torus)[:2])
+    assert np.array_equal(_reduced(options)[0].matrix, pm.reduced().matrix)
+    monkeypatch.setattr("igl_periods.cli_pictures.SIEGEL_GENUS_LIMIT", 0)
+    assert np.array_equal(_reduced(options)[0].matrix, pm.matrix)
 
 
 def test_extrinsic_weights_come_without_a_bound(torus, capsys):
