@@ -41,6 +41,18 @@ def test_every_entry_is_right_to_rounding(length):
     assert np.abs(moved - exact).max() <= 2.0**-52 * max(scale, np.abs(exact).max())
 
 
+@pytest.mark.parametrize("length", [0, 60])
+def test_one_correction_is_enough_for_ordinary_points(length, monkeypatch):
+    rng = np.random.default_rng(length)
+    Pi, gamma = random_point(HIGH, rng), random_word(HIGH, length, rng)
+    with_either = siegel_transform(gamma, Pi)
+    monkeypatch.setattr("igl_periods.moebius._in_balls", None)
+    assert np.array_equal(siegel_transform(gamma, Pi), with_either)
+    monkeypatch.undo()
+    monkeypatch.setattr("igl_periods.moebius._BALL_GENUS", HIGH)
+    assert np.abs(siegel_transform(gamma, Pi) - with_either).max() <= 2.0**-52
+
+
 def test_plain_floating_point_is_not():
     rng = np.random.default_rng(5)
     Pi, gamma = random_point(HIGH, rng), random_word(HIGH, 200, rng, 10**6)
