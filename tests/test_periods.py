@@ -353,6 +353,10 @@ def test_several_reductions_are_one_product(computed, monkeypatch):
     assert np.array_equal(total, J @ T)
     moved = ip.siegel_transform(J, ip.siegel_transform(T, pm.matrix))
     np.testing.assert_allclose(reduced.matrix, moved, rtol=0, atol=1e-11)
+    # Rounding is counted once.
+    once = pm.change_basis(total)
+    assert np.array_equal(reduced.dirichlet, once.dirichlet)
+    assert reduced.rounding == once.rounding < pm.change_basis(T).change_basis(J).rounding
 
 
 def test_reduction_has_a_limit(computed):

@@ -20,6 +20,7 @@ from igl_periods.lattice import (
     short_vectors,
     shortest_first,
 )
+from igl_periods.pairwise import pairwise_reduction
 from igl_periods.siegel import (
     SIEGEL_GENUS_LIMIT,
     check_siegel_point,
@@ -27,6 +28,7 @@ from igl_periods.siegel import (
     siegel_reduce,
     siegel_transform,
 )
+from igl_periods.siegel_steps import inversion_step, lattice_step
 from igl_periods.symplectic import energy_matrix, form_action, standard_form
 
 cases = st.tuples(st.integers(1, 6), st.integers(0, 2**32 - 1), st.integers(0, 40))
@@ -193,6 +195,49 @@ def test_reduction_keeps_its_promises_at_high_genus(g, length):
     again, nothing = siegel_reduce(matrix)
     assert np.array_equal(nothing, np.eye(2 * g, dtype=np.int64))
     assert np.array_equal(again, matrix)
+
+
+@pytest.mark.parametrize("g", [3, 20, 45])
+def test_steps_move_points_as_their_transformations_do(g):
+    rng = np.random.default_rng(g)
+    Pi = siegel_transform(random_word(g, 100, rng), random_point(g, rng))
+    for step in (lattice_step(Pi), inversion_step(Pi, g), inversion_step(Pi, 1)):
+        assert not step.idle
+        assert np.abs(step.point - siegel_transform(step.gamma, Pi)).max() < 1e-9
+    # Quasi-inversions raise det Y, and lattice steps keep it.
+    before, lattice, inverted = (
+        np.linalg.slogdet(point.imag)[1]
+        for point in (Pi, lattice_step(Pi).point, inversion_step(Pi, g).point)
+    )
+    assert abs(lattice - before) < 1e-9
+    assert inverted > before + 1e-6
+
+
+def test_the_walk_starts_at_a_pairwise_reduced_point(monkeypatch):
+    rng = np.random.default_rng(4)
+    Pi = siegel_transform(random_word(30, 100, rng), random_point(30, rng))
+    seen = []
+    monkeypatch.setattr(
+        "igl_periods.siegel.lattice_step", lambda point: seen.append(point) or lattice_step(point)
+    )
+    siegel_reduce(Pi)
+    D = energy_matrix(Pi)
+    U = pairwise_reduction(D)
+    assert np.trace(energy_matrix(seen[0])) == pytest.approx(np.trace(U @ D @ U.T), rel=1e-9)
+    assert np.trace(energy_matrix(seen[0])) < 0.9 * np.trace(D)
+
+
+@pytest.mark.parametrize(
+    ("Y", "reduced"),
+    [
+        ([[1.0, 0.5], [0.5, 1.2]], True),
+        ([[1.0, 0.52], [0.52, 1.5]], False),
+        ([[1.0, 0.1], [0.1, 0.9]], False),
+        ([[1.0]], True),
+    ],
+)
+def test_definition_of_reduced_bases(Y, reduced):
+    assert is_lll_reduced(np.array(Y), 1e-6) is reduced
 
 
 def test_symmetric_points_of_high_genus():
