@@ -6,6 +6,7 @@ import scipy.linalg
 
 import igl_periods as ip
 from igl_periods.symplectic import (
+    _singular_pairs,
     energy_matrix,
     form_action,
     is_symplectic,
@@ -96,6 +97,25 @@ def test_the_bound_of_the_symplectic_mean_holds_and_is_sharp():
         assert off <= (d - 1) * (1 + 1e-9)
         worst = max(worst, off / (d - 1))
     assert worst > 0.99
+
+
+@pytest.mark.parametrize("g", [10, 30, 90])
+def test_vectors_of_equal_singular_values_are_orthonormal(g):
+    # All values are 1 for an exact D: the hardest case.
+    R = np.linalg.cholesky(energy_matrix(random_period_matrix(g, np.random.default_rng(g))))
+    A = R.T @ standard_form(g) @ R
+    d, Q = _singular_pairs(0.5 * (A - A.T))
+    np.testing.assert_allclose(Q.T @ Q, np.eye(2 * g), rtol=0, atol=2e-14)
+    assert d.shape == (2 * g,)
+
+
+@pytest.mark.parametrize("entry", [1, 2**40, 2**62 + 1])
+def test_shears_with_large_entries(entry):
+    shear = np.eye(4, dtype=np.int64)
+    shear[0, 3] = shear[1, 2] = entry
+    assert is_symplectic(shear)
+    shear[1, 2] = entry - 1
+    assert not is_symplectic(shear)
 
 
 def test_matrices_that_are_not_positive_definite():
