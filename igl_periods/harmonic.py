@@ -38,6 +38,7 @@ from .errors import ComplexError
 from .gluing import next_corner
 from .linear_forms import Jumps, LinearForms, WeightedFaces, blocks, gram_matrix
 from .memory import release_freed_memory
+from .stages import progress
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -109,6 +110,7 @@ def solutions(factor: Factor | None, sources: csc_array) -> Floats:
     if factor is None:
         return potentials
     for start in range(0, k, _SOLVES_AT_ONCE):
+        progress("equations", start, k)
         columns = slice(start, min(start + _SOLVES_AT_ONCE, k))
         potentials[1:, columns] = factor(sources[1:, columns].toarray(order="F"))
     return potentials

@@ -27,6 +27,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from .delta_complex import DeltaComplex
+from .stages import progress
 from .triangles import double_areas
 
 Floats = NDArray[np.float64]
@@ -115,6 +116,7 @@ def gram_matrix(forms: LinearForms) -> Floats:
     """Energies of the forms, ∫ ω_i ∧ *ω_j; (k, k) symmetric."""
     D = np.zeros((forms.n_forms, forms.n_forms))
     for block in blocks(len(forms.faces.lengths), forms.n_forms):
+        progress("energies on faces", block.start, len(forms.faces.lengths))
         X = forms.gradients(block)
         D += X.T @ X
     return D
@@ -124,6 +126,7 @@ def mutual_energies(one: LinearForms, two: LinearForms) -> Floats:
     """Energies ∫ ω_i ∧ *η_j of two families of forms on the same faces; (k, l)."""
     D = np.zeros((one.n_forms, two.n_forms))
     for block in blocks(len(one.faces.lengths), max(one.n_forms, two.n_forms)):
+        progress("energies on faces", block.start, len(one.faces.lengths))
         D += one.gradients(block).T @ two.gradients(block)
     return D
 

@@ -8,8 +8,12 @@ import pytest
 
 from igl_periods import stages
 from igl_periods.cli import _StageFormatter
+from igl_periods.delta_complex import DeltaComplex
+from igl_periods.harmonic_energies import linear_energies
+from igl_periods.homology import cochains_and_basis
 from igl_periods.siegel import siegel_reduce
 from igl_periods.stages import logger, progress, stage
+from igl_periods.surfaces import thickened_lattice
 
 
 @pytest.fixture
@@ -83,3 +87,18 @@ def test_a_terminal_shows_one_line_for_each_stage(impatient):
     assert shown.count("\n") == 2
     assert lines[0].startswith("  counting  ")
     assert lines[1] == "  a remark"
+
+
+def test_harmonic_forms_report_their_equations_and_energies(caplog, impatient):
+    K = DeltaComplex.from_mesh(*thickened_lattice((3, 3, 3), 3))
+    cochains, _ = cochains_and_basis(K)
+    with caplog.at_level(logging.INFO, logger="igl_periods"):
+        linear_energies(K, cochains)
+    reported = [(record.progress, record.done, record.total) for record in caplog.records]
+    assert ("equations", 0, 56) in reported
+    assert ("equations", 32, 56) in reported
+    faces = [
+        done for name, done, total in reported if (name, total) == ("energies on faces", K.n_faces)
+    ]
+    assert 0 in faces
+    assert 0 < max(faces) < K.n_faces
