@@ -20,10 +20,14 @@ from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import connected_components
 
 from .errors import ComplexError, MeshError
+from .validation import checked_array
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
+
+# More triangles than this do not fit into the memory of common computers.
+_MOST_TRIANGLES = 10**8
 
 
 def twins_of_faces(faces: Ints, labels: Ints) -> tuple[Ints, Bools]:
@@ -91,18 +95,19 @@ def checked_twin(twin: ArrayLike) -> Ints:
     ------
     ComplexError
     """
-    glued = np.asarray(twin)
+    glued = checked_array(twin, "twin", ComplexError)
     if glued.ndim != 2 or glued.shape[1] != 3 or glued.shape[0] == 0:
         raise ComplexError(f"twin must have shape (m, 3) with m >= 1, not {glued.shape}.")
     if not np.issubdtype(glued.dtype, np.integer):
         raise ComplexError(f"twin must be integer (half-edges 3 f + s), not {glued.dtype}.")
+    low, high = int(glued.min()), int(glued.max())
+    if low < -1 or high >= glued.size:
+        raise ComplexError(
+            f"twin has entries from {low} to {high}; with {len(glued)} faces the half-edges are "
+            f"0 … {glued.size - 1}, and -1 is a free side."
+        )
     glued = glued.astype(np.int64)
     flat = glued.ravel()
-    if flat.min() < -1 or flat.max() >= flat.size:
-        raise ComplexError(
-            f"twin has entries from {flat.min()} to {flat.max()}; with {len(glued)} faces the "
-            f"half-edges are 0 … {flat.size - 1}, and -1 is a free side."
-        )
     half_edge = np.flatnonzero(flat >= 0)
     wrong = half_edge[(flat[flat[half_edge]] != half_edge) | (flat[half_edge] == half_edge)]
     if wrong.size:
@@ -122,7 +127,7 @@ def checked_same(same: ArrayLike, twin: Ints) -> Bools:
     ------
     ComplexError
     """
-    alike = np.asarray(same)
+    alike = checked_array(same, "same", ComplexError)
     if alike.shape != twin.shape or alike.dtype != np.bool_:
         raise ComplexError(
             f"same must be a boolean array of the shape of twin, {twin.shape}, not {alike.shape} "
@@ -212,11 +217,17 @@ def squares(gluing: Iterable[Sequence[Sequence[int]]], n: int) -> tuple[Floats, 
     Raises
     ------
     ComplexError
-        If ``n < 1``, or a side does not exist, is glued twice, to itself, or not at all.
+        If ``n < 1``, there would be more than 1e8 triangles, or a side does not exist, is glued
+        twice, to itself, or not at all.
     """
     n = _checked_subdivision(n)
     side_twin = _glued_sides(gluing)
     n_squares = len(side_twin) // 4
+    if 2 * n_squares * n * n > _MOST_TRIANGLES:
+        raise ComplexError(
+            f"{n_squares} squares divided into {n} x {n} squares have {2 * n_squares * n * n:.3g} "
+            f"triangles, and up to {_MOST_TRIANGLES:.3g} are made."
+        )
     # Cell (k, i, j): column i, row j of square k.  Its diagonal runs from bottom left to top
     # right; the lower triangle has corners (bottom left, bottom right, top right), the upper one
     # (bottom left, top right, top left).
@@ -256,7 +267,7 @@ def _glued_sides(gluing: Iterable[Sequence[Sequence[int]]]) -> Ints:
     """The involution of the sides ``4 square + side``."""
     try:
         pairs = np.asarray([np.asarray(pair) for pair in gluing])
-    except ValueError:
+    except (ValueError, TypeError):
         pairs = np.zeros(0)
     if pairs.ndim != 3 or pairs.shape[1:] != (2, 2) or not np.issubdtype(pairs.dtype, np.integer):
         raise ComplexError(

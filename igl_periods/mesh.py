@@ -19,6 +19,7 @@ from .mesh_file import compressed, read_mesh_file
 from .mesh_repair import repair_mesh
 from .mesh_report import MeshReport as MeshReport
 from .mesh_report import RepairStep
+from .validation import checked_corners, checked_positions
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -90,8 +91,14 @@ def split_components(V: ArrayLike, F: ArrayLike) -> list[tuple[Floats, Ints]]:
     -------
     list of (V, F)
         Each with its own vertices.
+
+    Raises
+    ------
+    MeshError
+        If the arrays have a wrong shape or type, or an index is out of range.
     """
-    positions, faces = np.asarray(V, dtype=np.float64), np.asarray(F, dtype=np.int64)
+    positions = checked_positions(V)
+    faces = checked_corners(F, len(positions))
     twin, _, _ = glued_in_pairs(faces)
     _, label = face_components(twin)
     _, first = np.unique(label, return_index=True)

@@ -1,10 +1,10 @@
 """Mesh files: vertex positions and triangles, in double precision and in the order of the file.
 
-OBJ, OFF and STL are read by libigl, which triangulates a polygon by its fan (c_0, c_i, c_{i+1}).
+OBJ and OFF are read by libigl, which triangulates a polygon by its fan (c_0, c_i, c_{i+1}).
 libigl trusts what a file declares, and ends the process or reads something else where it is
 wrong; therefore the lines are counted first, libigl is given nothing but the vertices and the
-faces, and what it returns must agree with the count.  STL stores three corners for every triangle
-and no connectivity: corners at the same position are the same vertex.
+faces, and what it returns must agree with the count.  STL, three corners for every triangle and
+no connectivity, needs no library; corners at the same position are the same vertex.
 
 Other formats are left to Open3D.  It is not used for the first three because it drops polygons,
 rounds coordinates to single precision and splits vertices along seams of textures.
@@ -12,7 +12,7 @@ rounds coordinates to single precision and splits vertices along seams of textur
 
 from __future__ import annotations
 
-import re
+import math
 import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -25,7 +25,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import MeshError
+from .mesh_text import COUNT, FACE, VERTEX, check_lines, text_lines
 from .ply import read_ply
+from .stl import read_stl
 from .validation import check_finite, checked_positions
 
 Floats = NDArray[np.float64]
@@ -33,8 +35,7 @@ Ints = NDArray[np.int64]
 
 # Extensions that Open3D reads and libigl does not.
 _OPEN3D = (".gltf", ".glb", ".fbx")
-# libigl takes a longer line for two.
-_LONGEST_LINE = 2000
+_FEWEST_DIGITS_OF_INFINITY = 308
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,38 +158,22 @@ def _libigl(name: str) -> tuple[Floats, Ints]:
     return V.reshape(-1, 3), F.reshape(-1, 3).astype(np.int64)
 
 
-def _lines(data: bytes) -> list[bytes]:
-    """Lines without comments and blank ones, continued ones joined."""
-    if b"\0" in data:
-        raise MeshError("the file is binary, where text is expected.")
-    joined = data.removeprefix(b"\xef\xbb\xbf").replace(b"\\\r\n", b" ").replace(b"\\\n", b" ")
-    stripped = (line.split(b"#", 1)[0].strip() for line in joined.splitlines())
-    return [line for line in stripped if line]
-
-
-_NUMBER = rb"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
-_VERTEX = re.compile(rb"(?:v\s+)?%b(?:\s+%b){2,}" % (_NUMBER, _NUMBER))
-_FACE = re.compile(rb"(?:f\s+)?-?\d{1,9}(?:/-?\d*){0,2}(?:\s+-?\d{1,9}(?:/-?\d*){0,2})*")
-
-
-def _check_lines(rows: list[bytes], pattern: re.Pattern[bytes], what: str) -> None:
+def _check_vertices(rows: list[bytes]) -> None:
+    check_lines(rows, VERTEX, "vertex")
     for row in rows:
-        if len(row) > _LONGEST_LINE:
-            raise MeshError(
-                f"a {what} has a line of {len(row)} characters, and libigl takes up to "
-                f"{_LONGEST_LINE}. Triangulate faces with hundreds of corners first."
-            )
-        if not pattern.fullmatch(row):
-            shown = row[:60].decode(errors="replace")
-            raise MeshError(f"this line is no {what}, which is made of finite numbers: {shown!r}.")
+        # Only such numbers can be too large for floating point, and libigl prints where they are.
+        if (b"e" in row or b"E" in row or len(row) > _FEWEST_DIGITS_OF_INFINITY) and not all(
+            math.isfinite(float(x)) for x in row.removeprefix(b"v").split()
+        ):
+            raise MeshError(f"a vertex has infinite coordinates: {row[:60].decode()!r}.")
 
 
 def _read_obj(file: Path) -> MeshFile:
-    lines = _lines(file.read_bytes())
-    vertices = [line for line in lines if line[:2] in (b"v ", b"v\t")]
-    faces = [line for line in lines if line[:2] in (b"f ", b"f\t")]
-    _check_lines(vertices, _VERTEX, "vertex")
-    _check_lines(faces, _FACE, "face")
+    lines = text_lines(file.read_bytes())
+    vertices = [line for line in lines if line[:1] == b"v" and line[1:2].isspace()]
+    faces = [line for line in lines if line[:1] == b"f" and line[1:2].isspace()]
+    _check_vertices(vertices)
+    check_lines(faces, FACE, "face")
     if any(b"-" in line for line in faces):
         faces = _counted_from_one(lines)
     degrees = np.array([len(face.split()) - 1 for face in faces], dtype=np.int64)
@@ -204,19 +189,24 @@ def _counted_from_one(lines: list[bytes]) -> list[bytes]:
         n += kind == b"v"
         if kind == b"f":
             numbers = [int(corner.split(b"/")[0]) for corner in corners]
+            if min(numbers) < -n:
+                raise MeshError(
+                    f"a face refers to vertex {min(numbers)}, counted backwards, and {n} vertices "
+                    "come before it: the file is truncated or corrupt."
+                )
             faces.append(b"f " + b" ".join(b"%d" % (i + (n + 1) * (i < 0)) for i in numbers))
     return faces
 
 
 def _read_off(file: Path) -> MeshFile:
-    lines = _lines(file.read_bytes())
+    lines = text_lines(file.read_bytes())
     keyword, *counts = lines[0].split() if lines else [b""]
     if keyword not in (b"OFF", b"COFF", b"NOFF") or b"BINARY" in counts:
         raise MeshError("the first line is not OFF, COFF or NOFF, as in text files of this format.")
     body = lines[1:]
     if not counts and body:
         counts, body = body[0].split(), body[1:]
-    if len(counts) < 2 or not all(count.isdigit() for count in counts):
+    if len(counts) < 2 or not all(COUNT.fullmatch(count) for count in counts):
         raise MeshError("the numbers of vertices and faces are missing after the first line.")
     n_vertices, n_faces = int(counts[0]), int(counts[1])
     if len(body) < n_vertices + n_faces:
@@ -227,8 +217,8 @@ def _read_off(file: Path) -> MeshFile:
     faces = [_off_face(row) for row in body[n_vertices : n_vertices + n_faces]]
     degrees = _checked_degrees(np.array([face.count(b" ") for face in faces], dtype=np.int64))
     vertices = [b" ".join(row.split()[:3]) for row in body[:n_vertices]]
-    _check_lines(vertices, _VERTEX, "vertex")
-    _check_lines(faces, _FACE, "face")
+    _check_vertices(vertices)
+    check_lines(faces, FACE, "face")
     head = b"OFF\n%d %d 0" % (n_vertices, n_faces)
     return _from_libigl(b"\n".join((head, *vertices, *faces, b"")), ".off", n_vertices, degrees)
 
@@ -236,9 +226,9 @@ def _read_off(file: Path) -> MeshFile:
 def _off_face(row: bytes) -> bytes:
     """The number of corners and the corners, without the colour that may follow."""
     tokens = row.split()
-    degree = int(tokens[0]) if tokens[0].isdigit() else -1
-    face = tokens[: degree + 1]
-    if len(face) != degree + 1 or not all(token.isdigit() for token in face):
+    size = int(tokens[0]) + 1 if COUNT.fullmatch(tokens[0]) else 0
+    face = tokens[:size]
+    if not face or len(face) != size or not all(token.isdigit() for token in face):
         raise MeshError(f"this line is no face: {row[:60].decode(errors='replace')!r}.")
     return b" ".join(face)
 
@@ -250,26 +240,12 @@ def _read_ply(file: Path) -> MeshFile:
 
 
 def _read_stl(file: Path) -> MeshFile:
-    data = file.read_bytes()
-    n_binary = int.from_bytes(data[80:84], "little")
-    if len(data) >= 84 and len(data) == 84 + 50 * n_binary:
-        announced = n_binary
-    elif data.lstrip().startswith(b"solid") and b"endsolid" in data:
-        announced = len(re.findall(rb"^\s*endfacet", data, re.MULTILINE))
-        if len(re.findall(rb"^\s*vertex\s", data, re.MULTILINE)) != 3 * announced:
-            raise MeshError("not every facet has three vertices: the file is corrupt.")
-    else:
-        raise MeshError(
-            "this is neither text from 'solid' to 'endsolid' nor the number of bytes that a binary "
-            "file announces: the file is truncated or no STL."
-        )
-    if announced == 0:
+    corners = read_stl(file.read_bytes())
+    if len(corners) == 0:
         raise MeshError("the mesh is empty: no faces.")
-    V, F = _libigl(str(file))
-    if len(F) != announced or len(V) != 3 * announced:
-        raise MeshError(f"{len(F)} of {announced} triangles could be read: the file is corrupt.")
-    welded, faces = compressed(V, first_equal_row(V)[F])
-    return MeshFile(welded, faces, len(F), 0, len(V) - len(welded))
+    F = first_equal_row(corners).reshape(-1, 3)
+    welded, faces = compressed(corners, F)
+    return MeshFile(welded, faces, len(F), 0, len(corners) - len(welded))
 
 
 def _read_open3d(file: Path) -> MeshFile:

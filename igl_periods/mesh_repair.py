@@ -32,7 +32,7 @@ from .gluing import components_of, corner_vertices, next_corner
 from .mesh_facts import collapsed, glued_in_pairs, orientable_faces, repeats
 from .mesh_file import compressed, first_equal_row
 from .mesh_report import RepairStep
-from .validation import check_finite, checked_positions
+from .validation import check_finite, checked_corners, checked_positions
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -60,9 +60,11 @@ def repair_mesh(
     Raises
     ------
     MeshError
-        If the coordinates are not finite, or no triangle is left.
+        If the arrays have a wrong shape or type, an index is out of range, coordinates are not
+        finite, or no triangle is left.
     """
-    V, F = checked_positions(V), np.asarray(F, dtype=np.int64)
+    V = checked_positions(V)
+    F = checked_corners(F, len(V))
     check_finite(V, F)
     steps = []
     F, repeated = _drop(F, _repeated(V, F))

@@ -11,6 +11,7 @@ compared entry by entry.
 from __future__ import annotations
 
 from functools import partial
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -30,9 +31,11 @@ from .memory import check_faces, check_high_order, room_for_forms
 from .periods import PeriodMatrix
 from .rounding import LEAST_ALLOWANCE, congruence
 from .stages import stage
-from .validation import check_equal_when_glued
+from .validation import check_equal_when_glued, checked_array
 
 Floats = NDArray[np.float64]
+
+_LARGEST_WEIGHT = 1e100
 
 
 def period_matrix(
@@ -179,7 +182,7 @@ def as_complex(surface: Any, F: ArrayLike | None = None) -> DeltaComplex:
 def _check_options(weights: str, degree: int, tolerance: float | None) -> None:
     if weights not in ("intrinsic", "extrinsic"):
         raise ValueError(f'weights must be "intrinsic" or "extrinsic", not {weights!r}.')
-    if degree != int(degree) or degree < 1:
+    if not (isinstance(degree, Real) and float(degree).is_integer() and degree >= 1):
         raise ValueError(f"degree = {degree}: trial functions have degree 1 at least.")
     if tolerance is not None and not tolerance > 0.0:
         raise ValueError(f"tolerance = {tolerance}: a bound is always positive.")
@@ -237,7 +240,7 @@ def _combined(T: NDArray[np.int8], cochains: csr_array) -> csr_array:
 
 
 def _edge_weights(K: DeltaComplex, rho: ArrayLike) -> Floats:
-    array = np.asarray(rho)
+    array = checked_array(rho, "rho", ComplexError)
     if array.shape != K.twin.shape or array.dtype.kind not in "iuf":
         raise ComplexError(
             f"rho must be a real array of the shape of twin, {K.twin.shape}, not {array.shape} "
@@ -246,6 +249,11 @@ def _edge_weights(K: DeltaComplex, rho: ArrayLike) -> Floats:
     values = array.astype(np.float64)
     if not np.isfinite(values).all():
         raise ComplexError("rho has entries that are NaN or infinite.")
+    if np.abs(values).max() > _LARGEST_WEIGHT:
+        raise ComplexError(
+            f"rho reaches {np.abs(values).max():.3g}: energies up to {_LARGEST_WEIGHT:g} can be "
+            "computed. The weights of round triangles are of order 1."
+        )
     check_equal_when_glued(values, K.twin, "weights")
     weights = np.empty(K.n_edges)
     weights[K.edge.ravel()] = values.ravel()

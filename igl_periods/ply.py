@@ -37,6 +37,7 @@ _NAMES = {
     "f8": ("double", "float64"),
 }
 _TYPES = {name: kind for kind, names in _NAMES.items() for name in names}
+_INTEGERS = {"i1", "u1", "i2", "u2", "i4", "u4"}
 _STRUCT = {"i1": "b", "u1": "B", "i2": "h", "u2": "H", "i4": "i", "u4": "I", "f4": "f", "f8": "d"}
 _BYTE_ORDER = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 _CORNERS = ("vertex_indices", "vertex_index")
@@ -54,6 +55,12 @@ class _Element:
     name: str
     size: int
     properties: tuple[_Property, ...]
+
+    def names(self, is_list: bool) -> set[str]:
+        """The properties that are numbers, or those that are lists of integers."""
+        if not is_list:
+            return {p.name for p in self.properties if p.count is None}
+        return {p.name for p in self.properties if p.count and p.kind in _INTEGERS}
 
 
 def read_ply(data: bytes) -> tuple[Floats, Ints, Ints]:
@@ -82,21 +89,22 @@ def read_ply(data: bytes) -> tuple[Floats, Ints, Ints]:
     rows = iter([line for line in data[offset:].splitlines() if line.strip()] if not order else [])
     V = corners = degrees = None
     for element in elements:
-        names = [p.name for p in element.properties]
         try:
             if order:
                 columns, offset = _binary(data, offset, element, order)
             else:
                 columns = _text(list(itertools.islice(rows, element.size)), element)
-        except (struct.error, ValueError, IndexError) as error:
+        except (struct.error, ValueError, OverflowError, IndexError) as error:
             raise MeshError(
                 f"the table of {element.size} {element.name} rows ends early or holds no numbers "
                 "that its header declares: the file is truncated or corrupt."
             ) from error
-        if element.name == "vertex" and {"x", "y", "z"} <= set(names):
-            V = np.column_stack([columns[names.index(c)][0] for c in "xyz"]).astype(np.float64)
-        for name in set(_CORNERS).intersection(names) if element.name == "face" else ():
-            corners, degrees = columns[names.index(name)]
+        column = dict(zip((p.name for p in element.properties), columns, strict=True))
+        if element.name == "vertex" and set("xyz") <= element.names(is_list=False):
+            V = np.column_stack([column[c][0] for c in "xyz"]).astype(np.float64)
+        for name in _CORNERS if element.name == "face" else ():
+            if name in element.names(is_list=True):
+                corners, degrees = column[name]
     if V is None or corners is None or degrees is None:
         raise MeshError(
             "the header declares no vertices with x, y, z, or no faces with vertex_indices: it is "
@@ -120,10 +128,10 @@ def _header(data: bytes) -> tuple[str, list[_Element], int]:
         match line.split():
             case ["format", name, *_] if name in _BYTE_ORDER:
                 order = _BYTE_ORDER[name]
-            case ["element", name, size] if size.isdigit():
+            case ["element", name, size] if size.isdigit() and len(size) < 19:
                 elements.append(_Element(name, int(size), ()))
-            case ["property", "list", count, kind, name] if elements and {count, kind} <= set(
-                _TYPES
+            case ["property", "list", count, kind, name] if (
+                elements and _TYPES.get(count) in _INTEGERS and kind in _TYPES
             ):
                 elements.append(
                     _extended(elements.pop(), _Property(name, _TYPES[kind], _TYPES[count]))
@@ -136,6 +144,9 @@ def _header(data: bytes) -> tuple[str, list[_Element], int]:
                 raise MeshError(f"this line of the PLY header is not understood: {line!r}.")
     if order is None:
         raise MeshError("the PLY header has no format line.")
+    for names in ([e.name for e in elements], *([p.name for p in e.properties] for e in elements)):
+        if len(set(names)) < len(names):
+            raise MeshError(f"the PLY header declares one name twice, of {', '.join(names)}.")
     return order, elements, start_of_tables
 
 
@@ -156,13 +167,24 @@ def _text(lines: list[bytes], element: _Element) -> list[_Column]:
             lengths = np.array([int(row[i]) for row, i in zip(rows, at)], dtype=np.int64)
             at += 1
         tokens = [row[i : i + n] for row, i, n in zip(rows, at, lengths)]
-        flat = np.array(list(itertools.chain.from_iterable(tokens)), dtype="S")
-        if flat.size != lengths.sum() or (lengths < 0).any():
+        flat = list(itertools.chain.from_iterable(tokens))
+        if len(flat) != lengths.sum() or (lengths < 0).any():
             raise ValueError("a row is too short")
-        numbers = flat.astype(np.float64 if p.kind[0] == "f" else np.int64)
-        columns.append((numbers.astype(p.kind), lengths))
+        columns.append((_numbers(flat, p.kind), lengths))
         at += lengths
     return columns
+
+
+def _numbers(tokens: list[bytes], kind: str) -> NDArray[Any]:
+    if kind not in _INTEGERS:
+        # What is too large for single precision becomes infinite.
+        with np.errstate(over="ignore"):
+            return np.array([float(token) for token in tokens]).astype(kind)
+    numbers = np.array([int(token) for token in tokens], dtype=np.int64)
+    limits = np.iinfo(kind)
+    if numbers.size and not limits.min <= numbers.min() <= numbers.max() <= limits.max:
+        raise ValueError("a number is too large for its type")
+    return numbers.astype(kind)
 
 
 def _binary(data: bytes, offset: int, element: _Element, order: str) -> tuple[list[_Column], int]:

@@ -41,7 +41,7 @@ def read_gluing(path: str | PathLike[str]) -> DeltaComplex:
     try:
         document = json.loads(Path(path).read_text(encoding="utf-8"))
         lengths, twin = np.array(document["lengths"]), np.array(document["twin"])
-    except (json.JSONDecodeError, UnicodeDecodeError, KeyError, TypeError, ValueError) as error:
+    except (ValueError, KeyError, TypeError, RecursionError) as error:
         raise MeshError(
             f'the file holds no gluing: {{"lengths": [[…]], "twin": [[…]]}} with three numbers for '
             f"each triangle is expected ({error})."

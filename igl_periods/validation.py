@@ -22,7 +22,7 @@ _LARGEST_LENGTH = 1e60
 
 def checked_positions(V: ArrayLike) -> Floats:
     """Vertex positions (n, d), finite, d ≥ 2, or MeshError."""
-    array = _array(V, "V", MeshError)
+    array = checked_array(V, "V", MeshError)
     if array.ndim != 2 or array.shape[1] < 2:
         raise MeshError(f"V must have shape (n, d) with d >= 2, not {array.shape}.")
     if array.dtype.kind not in "iuf":
@@ -61,7 +61,21 @@ def check_scale(lengths: Floats) -> None:
 
 def checked_faces(F: ArrayLike, n_vertices: int | None) -> Ints:
     """Faces (m, 3), m ≥ 1, of three different vertices each, in range, or MeshError."""
-    array = _array(F, "F", MeshError)
+    faces = checked_corners(F, n_vertices)
+    a, b, c = faces.T
+    repeated = (a == b) | (b == c) | (c == a)
+    if repeated.any():
+        f = int(np.argmax(repeated))
+        raise MeshError(
+            f"{np.count_nonzero(repeated)} faces repeat a vertex; the first is face {f}, "
+            f"{faces[f].tolist()}. Remove such collapsed faces."
+        )
+    return faces
+
+
+def checked_corners(F: ArrayLike, n_vertices: int | None) -> Ints:
+    """Faces (m, 3), m ≥ 1, in range, vertices maybe repeated, or MeshError.  A copy of F."""
+    array = checked_array(F, "F", MeshError)
     if array.size == 0:
         raise MeshError("the mesh is empty: it has no faces.")
     if array.ndim != 2 or array.shape[1] != 3:
@@ -82,22 +96,12 @@ def checked_faces(F: ArrayLike, n_vertices: int | None) -> Ints:
         )
     if high > np.iinfo(np.int64).max // 2:
         raise MeshError(f"F refers to vertex {high}, which is no sensible index.")
-    # A copy, since the complex keeps it.
-    faces = np.array(array, dtype=np.int64, order="C")
-    a, b, c = faces.T
-    repeated = (a == b) | (b == c) | (c == a)
-    if repeated.any():
-        f = int(np.argmax(repeated))
-        raise MeshError(
-            f"{np.count_nonzero(repeated)} faces repeat a vertex; the first is face {f}, "
-            f"{faces[f].tolist()}. Remove such collapsed faces."
-        )
-    return faces
+    return np.array(array, dtype=np.int64, order="C")
 
 
 def checked_lengths(lengths: ArrayLike, n_faces: int) -> Floats:
     """Side lengths (n_faces, 3), positive and finite, or ComplexError."""
-    array = _array(lengths, "lengths", ComplexError)
+    array = checked_array(lengths, "lengths", ComplexError)
     if array.shape != (n_faces, 3):
         raise ComplexError(
             f"lengths must have shape ({n_faces}, 3), one row a face, not {array.shape}."
@@ -115,7 +119,8 @@ def checked_lengths(lengths: ArrayLike, n_faces: int) -> Floats:
     return checked
 
 
-def _array(values: ArrayLike, name: str, error: type[ValueError]) -> NDArray[Any]:
+def checked_array(values: ArrayLike, name: str, error: type[ValueError]) -> NDArray[Any]:
+    """``numpy.asarray(values)``, or the error where rows have different lengths."""
     try:
         return np.asarray(values)
     except ValueError as ragged:

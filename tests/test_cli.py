@@ -291,6 +291,8 @@ def test_a_generic_surface_is_none_of_the_named_ones(tmp_path, capsys):
         ('{"lengths": [[1, 1, 1]], "twin": [[0, 1]]}', "twin must have shape"),
         ('{"lengths": [[1, 1, 1], [1]], "twin": []}', "holds no gluing"),
         ("{", "holds no gluing"),
+        ("[" * 100_000, "holds no gluing"),
+        ("1" * 5000, "holds no gluing"),
     ],
 )
 def test_gluings_that_are_refused(tmp_path, capsys, content, message):

@@ -391,6 +391,14 @@ def test_gluings_of_a_wrong_shape_or_type():
         ip.DeltaComplex.from_gluing(np.ones((4, 3)), np.zeros(12, dtype=int))
     with pytest.raises(ip.ComplexError, match="twin must be integer"):
         ip.DeltaComplex.from_gluing(np.ones((4, 3)), np.zeros((4, 3)))
+    with pytest.raises(ip.ComplexError, match="twin is no rectangular array"):
+        ip.DeltaComplex.from_gluing(np.ones((4, 3)), [[0, 1, 2], [0]])
+    # −1 is a free side; 2^64 − 1, which has the same bits, is no half-edge.
+    unsigned = np.full((1, 3), 2**64 - 1, dtype=np.uint64)
+    with pytest.raises(ip.ComplexError, match=r"entries from 18446744073709551615 to"):
+        ip.DeltaComplex.from_gluing(np.ones((1, 3)), unsigned)
+    with pytest.raises(ip.ComplexError, match="same is no rectangular array"):
+        ip.DeltaComplex.from_gluing(np.ones((2, 3)), np.full((2, 3), -1), [[True], [False, True]])
 
 
 @pytest.mark.parametrize(
@@ -404,6 +412,8 @@ def test_gluings_of_a_wrong_shape_or_type():
         ([((0, 0), (0, 2)), ((0, 1), (10**9, 3))], 1, "square 1000000000 is named"),
         ([((0, 0), (0, 2)), ((0, 1),)], 1, "list of pairs"),
         ([(0, 1), (2, 3)], 1, "list of pairs"),
+        (None, 1, "list of pairs"),
+        ([((0, 0), (0, 2)), ((0, 1), (0, 3))], 10**9, r"have 2e\+18 triangles, and up to 1e\+08"),
     ],
 )
 def test_gluings_of_squares_that_are_none(gluing, n, message):

@@ -417,6 +417,7 @@ def test_abstract_weights_of_square_lattices():
     [
         (lambda rho: rho.__setitem__((0, 0), np.nan), "NaN or infinite"),
         (lambda rho: rho.__setitem__((0, 0), 7.0), "different weights"),
+        (lambda rho: rho.__imul__(1e101), "rho reaches 1e.101: energies up to 1e.100"),
         (lambda rho: rho.__imul__(-1.0), "no positive definite energy: .* negative, the least is"),
     ],
 )
@@ -428,6 +429,8 @@ def test_abstract_weights_that_are_refused(change, message):
         ip.period_matrix_from_weights(rho, K.twin)
     with pytest.raises(ip.ComplexError, match="rho must be a real array"):
         ip.period_matrix_from_weights(rho[:2], K.twin)
+    with pytest.raises(ip.ComplexError, match="rho is no rectangular array"):
+        ip.period_matrix_from_weights([[1.0, 1.0, 1.0], [1.0]], K.twin)
 
 
 def test_one_vertex_and_negative_weights():
@@ -538,6 +541,11 @@ def test_a_tolerance_that_cannot_be_met():
     ("options", "message"),
     [
         ({"degree": 0}, "degree = 0"),
+        ({"degree": 1.5}, "degree = 1.5"),
+        ({"degree": np.nan}, "degree = nan: trial functions have degree 1 at least"),
+        ({"degree": np.inf}, "degree = inf: trial functions"),
+        ({"degree": None}, "degree = None: trial functions"),
+        ({"weights": None}, "weights must be"),
         ({"tolerance": -1.0}, "a bound is always positive"),
         ({"tolerance": np.nan}, "a bound is always positive"),
         ({"degree": 2, "tolerance": 1e-3}, "a tolerance chooses the degree"),

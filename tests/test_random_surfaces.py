@@ -7,37 +7,12 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from random_surfaces import noisy_torus, random_gluing, random_lengths
+from result_checks import check_result
 
 import igl_periods as ip
-from igl_periods.homology import pairing
-from igl_periods.symplectic import standard_form
 
 many = settings(max_examples=300, deadline=None, suppress_health_check=list(HealthCheck))
 seeds = st.integers(0, 2**32 - 1)
-
-
-def check_result(pm):
-    """Bilinear relations, bracket, unimodular pairing."""
-    g, Pi = pm.genus, pm.matrix
-    J = standard_form(g)
-    assert np.array_equal(pairing(pm.complex, pm.cocycles, pm.cocycles), J)
-    assert np.all(np.isfinite(Pi))
-    assert np.array_equal(Pi, Pi.T)
-    assert np.isfinite(pm.bound)
-    if g == 0:
-        return
-    assert np.linalg.eigvalsh(Pi.imag)[0] > 0
-    # d ≥ 1 is the bracket J D⁻¹ Jᵀ ≤ D, up to what the bound allows for rounding.
-    assert pm.symplectic_eigenvalues[-1] >= 1 - pm.rounding_allowance
-    reduced = pm.reduced()
-    scale = np.sqrt(np.diag(reduced.matrix.imag))
-    uncertain = reduced.rounding_allowance * np.outer(scale, scale)
-    assert np.all(np.abs(reduced.matrix.real) <= 0.5 + 1e-9 + uncertain)
-    # The bound does not depend on the marking, up to the rounding that it allows for.
-    assert (
-        abs(reduced.symplectic_eigenvalues[0] / pm.symplectic_eigenvalues[0] - 1)
-        <= 2 * pm.rounding_allowance + 2 * reduced.rounding_allowance
-    )
 
 
 def check_result_or_refusal(*surface):
