@@ -34,6 +34,7 @@ import flint
 import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
+from scipy.linalg import solve_triangular
 
 from .errors import ComplexError
 from .integer_matrices import product
@@ -144,17 +145,22 @@ def _is_symplectic_in_flint(U: Ints, M: Ints) -> bool:
 def energy_matrix(Pi: NDArray[np.complex128]) -> Floats:
     """The Dirichlet matrix D of a Riemann surface with period matrix Π; shape (2g, 2g)."""
     X, Y = Pi.real, Pi.imag
-    inverse = _symmetric_inverse(Y)
+    inverse = _definite_inverse(Y)
     XY = X @ inverse
     return np.block([[Y + XY @ X.T, -XY], [-XY.T, inverse]])
 
 
 def siegel_point(G: Floats) -> NDArray[np.complex128]:
-    """The period matrix Π = X + iY of a symplectic Dirichlet matrix: Y = G_bb⁻¹, X = −G_ab Y."""
+    """The period matrix Π = X + iY of a symplectic Dirichlet matrix: Y = G_bb⁻¹, X = −G_ab Y.
+
+    In a marking in which some cycles are much longer than others, G is far from round, and only
+    its Cholesky factors keep the digits that it has, whatever the scale of its rows.  With the b
+    first, G = L Lᵀ, they are Y = (L_bb L_bbᵀ)⁻¹ and X = −L_ab L_bb⁻¹.
+    """
     g = len(G) // 2
-    Y = _symmetric_inverse(G[g:, g:])
-    X = -G[:g, g:] @ Y
-    return _symmetric(X) + 1j * Y
+    L = cholesky_factor(np.roll(G, g, axis=(0, 1)))
+    inverse = solve_triangular(L[:g, :g], np.eye(g), lower=True)
+    return _symmetric(-L[g:, :g] @ inverse) + 1j * (inverse.T @ inverse)
 
 
 def form_action(gamma: NDArray[np.integer]) -> Ints:
@@ -231,5 +237,6 @@ def _symmetric(A: Floats) -> Floats:
     return 0.5 * (A + A.T)
 
 
-def _symmetric_inverse(A: Floats) -> Floats:
-    return _symmetric(np.asarray(np.linalg.inv(A), dtype=np.float64))
+def _definite_inverse(A: Floats) -> Floats:
+    inverse = solve_triangular(cholesky_factor(A), np.eye(len(A)), lower=True)
+    return np.asarray(inverse.T @ inverse, dtype=np.float64)

@@ -101,3 +101,41 @@ def dirichlet_matrix(K, cochains, rounds):
         for edge in flips.edge.tolist():
             surface.flip(edge)
     return surface.dirichlet()
+
+
+def distance_from_the_mean(D, Pi):
+    """How far Π is from the symplectic mean of D, ‖Y^{-1/2} (Π − Π(D)) Y^{-1/2}‖₂.
+
+    The complex structure T⁻¹ J T of D = Tᵀ diag(d, d) T is the limit of Newton's iteration
+    X ← ½ (X − X⁻¹) from J D; the mean is −J times it.
+    """
+    flint.ctx.prec = BITS
+    g = len(Pi)
+    J = arb_mat(np.block([[np.zeros((g, g)), np.eye(g)], [-np.eye(g), np.zeros((g, g))]]).tolist())
+    X = J * arb_mat(D.tolist())
+    for _ in range(12):
+        X = _middle((X - X.inv()) * arb(0.5))
+    assert max(float(abs(x).mid()) for x in (X * X + J.inv() * J).entries()) < 1e-20
+    G = (J * X * arb(-1)).table()
+    bb, ab = (arb_mat([row[g:] for row in part]) for part in (G[g:], G[:g]))
+    error_of_X = arb_mat(Pi.real.tolist()) + ab * bb.inv()
+    error_of_Y = arb_mat(Pi.imag.tolist()) - bb.inv()
+    # With bb = R Rᵀ, Rᵀ is an inverse root of Y up to rotations.
+    R = _cholesky(bb)
+    parts = (R.transpose() * error * R for error in (error_of_X, error_of_Y))
+    re, im = (np.array([[float(x.mid()) for x in row] for row in A.table()]) for A in parts)
+    return np.linalg.norm(re + 1j * im, 2)
+
+
+def _middle(A):
+    return arb_mat([[x.mid() for x in row] for row in A.table()])
+
+
+def _cholesky(A):
+    n = A.nrows()
+    R = [[arb(0)] * n for _ in range(n)]
+    for i in range(n):
+        for j in range(i + 1):
+            rest = A[i, j] - sum((R[i][k] * R[j][k] for k in range(j)), arb(0))
+            R[i][j] = rest.sqrt() if i == j else rest / R[j][j]
+    return arb_mat(R)

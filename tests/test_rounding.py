@@ -6,12 +6,13 @@ import ball_arithmetic
 import flint
 import numpy as np
 import pytest
+from modular_words import random_point, random_word
 from random_surfaces import L_SHAPE, noisy_torus, random_gluing, random_lengths
 
 import igl_periods as ip
 from igl_periods.delaunay import delaunay_flips
 from igl_periods.rounding import algebraic_allowance, congruence
-from igl_periods.symplectic import standard_form
+from igl_periods.symplectic import energy_matrix, siegel_point, standard_form, williamson
 from igl_periods.triangles import length_sensitivity
 
 
@@ -220,3 +221,26 @@ def test_allowance_of_the_algebra_contains_its_norms(n):
     exact = unit * (skew + t @ np.abs(np.linalg.inv(D)) @ t)
     assert exact * (1 - 1e-9) <= algebraic_allowance(np.linalg.cholesky(D)) <= 1.2 * exact
     assert algebraic_allowance(np.zeros((0, 0))) == 0.0
+
+
+def extreme_energies(g, seed):
+    """A Dirichlet matrix with lengths of cycles from 1e-4 to 1e4, in a far marking."""
+    rng = np.random.default_rng(seed)
+    scale = np.diag(10.0 ** rng.uniform(-4, 4, g))
+    D = energy_matrix(scale @ random_point(g, rng) @ scale)
+    R = np.linalg.cholesky(D)
+    D = R @ np.diag(np.tile(1 + 10.0 ** -rng.uniform(0, 12, g), 2)) @ R.T
+    for length in range(12, 0, -1):
+        U = random_word(g, length, rng)
+        moved = U @ D @ U.T
+        if np.linalg.eigvalsh(moved)[0] > 1e-14 * np.trace(moved):
+            return 0.5 * (moved + moved.T)
+    return 0.5 * (D + D.T)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_allowance_covers_the_error_of_the_symplectic_mean(seed):
+    D = extreme_energies(1 + seed % 5, seed)
+    Pi = siegel_point(williamson(D)[1])
+    assert np.linalg.eigvalsh(Pi.imag)[0] > 0
+    assert ball_arithmetic.distance_from_the_mean(D, Pi) <= algebraic_allowance(np.linalg.cholesky(D))
