@@ -26,8 +26,10 @@ from __future__ import annotations
 import flint
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import solve_triangular
 
 from .all_swap import all_swap_lll
+from .errors import NotASiegelPointError
 from .integer_matrices import int_array, unimodular_inverse
 
 Floats = NDArray[np.float64]
@@ -39,6 +41,8 @@ _DELTA, _ETA = 0.99, 0.51
 _BITS = 40
 # From this size on a form is reduced in floating point, if it is not too far from round.
 _ALL_SWAP_SIZE = 40
+# Of a form scaled to a unit diagonal, times its size: beyond it rounding decides about signs.
+_LARGEST_CONDITION = 1e15
 # Partial vectors handled at one level before an enumeration counts as too large.
 ENUMERATION_LIMIT = 500_000
 
@@ -56,17 +60,30 @@ def lll_basis(Y: Floats) -> Ints:
         Symmetric, positive definite.  It is rounded to integers relative to its smallest
         eigenvalue, so that the form may be as far from round as floating point allows.  Large
         forms are reduced in floating point where that suffices (:mod:`igl_periods.all_swap`).
+
+    Raises
+    ------
+    NotASiegelPointError
+        If Y is singular up to rounding, or U does not fit into 64-bit integers.
     """
     n = len(Y)
     if n < 2:
         return np.eye(n, dtype=np.int64)
     if n >= _ALL_SWAP_SIZE and (U := all_swap_lll(Y)) is not None:
         return U
-    least = max(float(np.linalg.eigvalsh(Y)[0]), np.finfo(float).eps * float(np.trace(Y)))
-    scaled = np.ldexp(Y, _BITS - int(np.floor(np.log2(least))))
-    form = flint.fmpz_mat([[int(v) for v in row] for row in np.rint(0.5 * (scaled + scaled.T))])
-    _, transformation = form.lll(True, _DELTA, _ETA, "gram")
-    return int_array(transformation)
+    exponent = _BITS - int(np.floor(np.log2(_least_eigenvalue(Y))))
+    try:
+        with np.errstate(over="ignore"):
+            scaled = np.ldexp(Y, exponent)
+        rows = np.rint(0.5 * (scaled + scaled.T))
+        form = flint.fmpz_mat([[int(v) for v in row] for row in rows])
+        _, transformation = form.lll(True, _DELTA, _ETA, "gram")
+        return int_array(transformation)
+    except OverflowError as error:
+        raise NotASiegelPointError(
+            "the reduced basis does not fit into 64-bit integers: the matrix is too close to the "
+            "boundary of the Siegel upper half-space"
+        ) from error
 
 
 def is_lll_reduced(Y: Floats, tolerance: float) -> bool:
@@ -80,6 +97,25 @@ def is_lll_reduced(Y: Floats, tolerance: float) -> bool:
         np.abs(np.tril(mu, -1)).max() <= _ETA + tolerance
         and np.all(height[1:] >= (_DELTA - tolerance - neighbour**2) * height[:-1])
     )
+
+
+def _least_eigenvalue(Y: Floats) -> float:
+    """The smallest eigenvalue, from below and within a factor n, however far the rows differ.
+
+    FLINT ends the process where a form is not positive definite, so what rounding could make
+    indefinite is refused: 1/κ ≤ nε, κ the trace of the inverse of Y scaled to a unit diagonal.
+    """
+    try:
+        inverse = solve_triangular(np.linalg.cholesky(Y), np.eye(len(Y)), lower=True)
+    except np.linalg.LinAlgError:
+        inverse = np.full(Y.shape, np.inf)
+    condition = float(np.sum((inverse * np.sqrt(np.diag(Y))) ** 2))
+    if not len(Y) * condition < _LARGEST_CONDITION:
+        raise NotASiegelPointError(
+            f"the imaginary part is singular up to rounding (condition {condition:.3g} with rows "
+            "scaled): the matrix is too close to the boundary of the Siegel upper half-space"
+        )
+    return 1.0 / float(np.sum(inverse**2))
 
 
 def short_vectors(Y: Floats, bound: float, limit: int = ENUMERATION_LIMIT) -> tuple[Ints, Floats]:

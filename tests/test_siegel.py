@@ -491,6 +491,31 @@ def test_lattice_bases(n, seed):
     assert short_vectors(U @ Y @ U.T, shortest * (1 - 1e-5))[0].any(axis=1).sum() == 0
 
 
+@pytest.mark.parametrize("Y", [[[1, 3e9], [3e9, 1e61]], [[1, 1e15], [1e15, 1.000000001e30]]])
+def test_lattices_far_from_round(Y):
+    # Beyond any condition number that eigenvalues could tell from 0.
+    U = lll_basis(np.array(Y))
+    assert U.tolist() == [[1, 0], [-round(Y[0][1]), 1]]
+    matrix, gamma = siegel_reduce(1j * np.array(Y))
+    assert gamma[:2, :2].tolist() == U.tolist()
+    assert matrix[0, 0] == 1j
+
+
+@pytest.mark.parametrize(
+    ("Y", "message"),
+    [
+        ([[1, 1 - 1e-15], [1 - 1e-15, 1]], "singular up to rounding"),
+        ([[1, 1], [1, 1]], "singular up to rounding"),
+        ([[1, 1e25], [1e25, 1e61]], "does not fit into 64-bit integers"),
+        ([[1e-200, 0], [0, 1e200]], "does not fit into 64-bit integers"),
+    ],
+)
+def test_lattices_that_are_none(Y, message):
+    # In FLINT a form that is not positive definite would end the process.
+    with pytest.raises(NotASiegelPointError, match=message):
+        lll_basis(np.array(Y))
+
+
 def test_enumeration_has_a_limit():
     with pytest.raises(
         EnumerationLimitError, match="more than 100 partial vectors at level 2 of 3"
