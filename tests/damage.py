@@ -9,7 +9,7 @@ import warnings
 import numpy as np
 from hypothesis import strategies as st
 from mesh_files import cube, fbx, glb, gltf, halved, obj, off, ply, stl, torus
-from random_surfaces import random_gluing, random_lengths
+from random_surfaces import needle_gluing, random_gluing, random_lengths
 
 _SEEDS = st.integers(0, 2**32 - 1)
 _TORUS, _CUBE = torus(3, 3), cube()
@@ -294,3 +294,11 @@ def squares(draw):
         case 5:
             n = draw(st.sampled_from([0, -1, 1.5, None, "2", 10**6, 10**9, 10**18]))
     return gluing, n
+
+
+@st.composite
+def needles(draw):
+    """lengths, twin, same: glued needles, undamaged."""
+    rng = np.random.default_rng(draw(_SEEDS))
+    lengths, twin = needle_gluing(2 * draw(st.integers(1, 6)), draw(st.floats(1, 14)), rng)
+    return lengths, twin, np.zeros(twin.shape, dtype=bool)

@@ -61,3 +61,21 @@ def random_lengths(twin: np.ndarray, rng: np.random.Generator) -> np.ndarray:
     """Lengths equal on glued sides that satisfy all triangle inequalities."""
     lengths = rng.uniform(1.0, 1.98, twin.size)
     return np.minimum(lengths, lengths[twin.ravel()]).reshape(-1, 3)
+
+
+def needle_gluing(
+    n_faces: int, exponent: float, rng: np.random.Generator
+) -> tuple[np.ndarray, np.ndarray]:
+    """Lengths and gluing of an even number of isosceles needles, as thin as 10^-exponent.
+
+    One side of every face is free to be tiny: the sides of equal length are glued to each other.
+    """
+    order = 3 * np.arange(n_faces)
+    twin = np.empty(3 * n_faces, dtype=np.int64)
+    short = rng.permutation(order)
+    twin[short[0::2]], twin[short[1::2]] = short[1::2], short[0::2]
+    long = rng.permutation(np.concatenate([order + 1, order + 2]))
+    twin[long[0::2]], twin[long[1::2]] = long[1::2], long[0::2]
+    lengths = np.ones(3 * n_faces)
+    lengths[short] = np.repeat(10.0 ** -rng.uniform(0, exponent, n_faces // 2), 2)
+    return lengths.reshape(-1, 3), twin.reshape(-1, 3)

@@ -26,6 +26,7 @@ KINDS = {
     "repair": (st.tuples(damage.meshes(), HOLES), 40, 1000),
     "lengths": (damage.lengths(), 40, 500),
     "gluing": (damage.gluings(), 60, 1500),
+    "needles": (damage.needles(), 40, 1000),
     "weights": (damage.gluings(), 60, 500),
     "squares": (damage.squares(), 40, 500),
 }

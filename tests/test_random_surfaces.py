@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from random_surfaces import noisy_torus, random_gluing, random_lengths
+from random_surfaces import needle_gluing, noisy_torus, random_gluing, random_lengths
 from result_checks import check_result
 
 import igl_periods as ip
@@ -40,17 +40,8 @@ def test_random_gluings(n_faces, seed):
 @many
 @given(n_faces=st.integers(1, 8), exponent=st.floats(1, 14), seed=seeds)
 def test_random_gluings_of_needles(n_faces, exponent, seed):
-    # One side of every face free to be tiny: the sides of equal length are glued to each other.
     rng = np.random.default_rng(seed)
-    order = 3 * np.arange(2 * n_faces)
-    twin = np.empty(6 * n_faces, dtype=np.int64)
-    short = rng.permutation(order)
-    twin[short[0::2]], twin[short[1::2]] = short[1::2], short[0::2]
-    long = rng.permutation(np.concatenate([order + 1, order + 2]))
-    twin[long[0::2]], twin[long[1::2]] = long[1::2], long[0::2]
-    lengths = np.ones(6 * n_faces)
-    lengths[short] = np.repeat(10.0 ** -rng.uniform(0, exponent, n_faces), 2)
-    K = ip.DeltaComplex.from_gluing(lengths.reshape(-1, 3), twin.reshape(-1, 3))
+    K = ip.DeltaComplex.from_gluing(*needle_gluing(2 * n_faces, exponent, rng))
     for part in K.components():
         check_result_or_refusal(part)
 

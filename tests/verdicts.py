@@ -140,6 +140,7 @@ _VERDICTS = {
     "repair": _on_repair,
     "lengths": _on_lengths,
     "gluing": _on_gluing,
+    "needles": _on_gluing,
     "weights": _on_weights,
     "squares": _on_squares,
 }
