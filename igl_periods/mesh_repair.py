@@ -178,7 +178,6 @@ def _fill_holes(V: Floats, F: Ints, largest: int) -> tuple[Floats, Ints, int]:
     centre = np.cumsum(filled) - 1
     # On an oriented surface each vertex of a loop starts one of its sides: this is their mean.
     centres = np.zeros((int(filled.sum()), V.shape[1]))
-    np.add.at(centres, centre[loop[chosen]], V[start[chosen]])
-    centres /= size[filled, None]
+    np.add.at(centres, centre[loop[chosen]], V[start[chosen]] / size[loop[chosen], None])
     cones = np.column_stack([end, start, len(V) + centre[loop]])[chosen]
     return np.vstack([V, centres]), np.vstack([F, cones]), int(filled.sum())
