@@ -59,7 +59,7 @@ def judge_many(judge, kind, number, **options):
     results = judge.count.total() - refused
     # A strategy that yields nothing but refusals, or none, would say nothing.
     assert results > number / 20, judge.count
-    assert refused > number / 20, judge.count
+    assert refused > 0, judge.count
 
 
 @pytest.mark.parametrize("kind", KINDS)
