@@ -20,13 +20,13 @@ HOLES = st.sampled_from([0, 4, 100])
 
 # Kind of example: a strategy, and how many examples the default and the slow suite judge.
 KINDS = {
-    "file": (st.tuples(damage.files(), st.booleans(), HOLES), 150, 5000),
+    "file": (st.tuples(damage.files(), st.booleans(), HOLES), 120, 5000),
     "Open3D file": (st.tuples(damage.files(damage.OPEN3D), st.booleans(), HOLES), 40, 1000),
     "mesh": (damage.meshes(), 40, 1500),
     "repair": (st.tuples(damage.meshes(), HOLES), 40, 1000),
     "lengths": (damage.lengths(), 40, 500),
-    "gluing": (damage.gluings(), 60, 1500),
-    "needles": (damage.needles(), 40, 1000),
+    "gluing": (damage.gluings(), 40, 1500),
+    "needles": (damage.needles(), 20, 1000),
     "weights": (damage.gluings(), 60, 500),
     "squares": (damage.squares(), 40, 500),
 }
