@@ -159,7 +159,7 @@ def meshes(draw):
         V = V + draw(st.sampled_from([1e-12, 1e-3, 0.3, 3.0])) * rng.normal(size=V.shape)
     for how in draw(st.lists(st.sampled_from(sorted(_MESH_CHANGES)), max_size=4)):
         # What does not apply to what is left of the mesh is left out.
-        with contextlib.suppress(IndexError, ValueError):
+        with contextlib.suppress(IndexError, ValueError), np.errstate(all="ignore"):
             V, F = _MESH_CHANGES[how](V, F, rng)
     if draw(st.integers(0, 19)) == 0:
         V, F = _other_types(V, F, draw(st.sampled_from(_DTYPES)), draw(st.booleans()))
@@ -220,7 +220,7 @@ def gluings(draw):
     lengths = random_lengths(twin, rng)
     same = np.zeros(twin.shape, dtype=bool)
     for how in draw(st.lists(st.sampled_from(sorted(_GLUING_CHANGES)), max_size=3)):
-        with contextlib.suppress(IndexError, ValueError):
+        with contextlib.suppress(IndexError, ValueError), np.errstate(all="ignore"):
             lengths, twin, same = _GLUING_CHANGES[how](lengths, twin, same, rng)
     if draw(st.integers(0, 19)) == 0:
         dtype = draw(st.sampled_from(_DTYPES))
