@@ -37,7 +37,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns the exit code."""
     options = _parser().parse_args(arguments)
     if sys.stderr.isatty() and not options.quiet:
-        _show_stages()
+        show_stages()
     try:
         with warnings.catch_warnings(record=True) as caught:
             code = int(options.run(options))
@@ -202,7 +202,7 @@ def _refused(message: str) -> int:
     return 1
 
 
-def _show_stages() -> None:
+def show_stages() -> None:
     """Show each stage on the terminal while it runs, and its time when it is done."""
     handler = logging.StreamHandler(sys.stderr)
     handler.terminator = ""

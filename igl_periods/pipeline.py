@@ -115,7 +115,7 @@ def period_matrix(
         return _uncertified(K, extrinsic_weights(K))
     with stage("homology"):
         cochains, T = cochains_and_basis(K)
-    certify = partial(_certified, K, cochains, T)
+    certify = partial(certified_period_matrix, K, cochains, T)
     if tolerance is not None:
         where = Triangulation(*_triangulated(K, cochains, delaunay), T.astype(np.int64))
         return period_matrix_within(where, certify, tolerance, max_unknowns, max_memory)
@@ -211,7 +211,7 @@ def _high_order(K: DeltaComplex, cochains: csr_array, degree: int) -> tuple[Floa
         return D, high_order.rounding_allowance(forms, D)
 
 
-def _certified(
+def certified_period_matrix(
     K: DeltaComplex, cochains: csr_array, T: NDArray[np.int8], raw: Floats, allowance: float
 ) -> PeriodMatrix:
     """The period matrix in the canonical basis T c, from energies in the classes c."""

@@ -1,0 +1,3 @@
+"""x"""
+
+from .pipeline import period_matrix as period_matrix
