@@ -30,6 +30,8 @@ from igl_periods.stages import logger
 SURFACES = {"delaunay": delaunay_surface, "marching-cubes": marching_cubes_surface}
 TRIANGLES = 1e9
 GENUS = 2
+# What rank 0 does alone.
+INTEGERS = ("surface", "homology", "Delaunay flips", "partition")
 # What is assumed: neighbours of a part, its ghosts over the root of its vertices, exchanges with
 # every neighbour on each level of an iteration, coarsening, and seconds for one message.
 NEIGHBOURS, GHOSTS, EXCHANGES, COARSENING, LATENCY = 6, 3.0, 6, 20.0, 2e-6
@@ -78,7 +80,7 @@ def measure(comm, name, n_vertices, rtol):
         return None
     owned = pm.complex.n_vertices / comm.size
     solving = stages.seconds["harmonic forms"] / sum(stages.iterations)
-    root = max(peaks[0][stage] for stage in ("surface", "homology", "Delaunay flips", "partition"))
+    root = max(peaks[0][stage] for stage in INTEGERS)
     result = {
         "surface": name,
         "ranks": comm.size,
@@ -89,6 +91,7 @@ def measure(comm, name, n_vertices, rtol):
         "seconds": stages.seconds,
         "iteration": solving / owned,
         "multigrid": stages.seconds["multigrid"] / owned,
+        "integers": sum(stages.seconds[stage] for stage in INTEGERS) / pm.complex.n_faces,
         "root": root / pm.complex.n_faces,
         "other": max(peaks[-1].values()) / owned if comm.size > 1 else float("nan"),
     }
@@ -103,7 +106,8 @@ def report(result):
         f"  iterations                             {result['iterations']}\n"
         f"  each, per owned vertex                 {1e6 * result['iteration']:8.3f} µs\n"
         f"  multigrid, per owned vertex            {1e6 * result['multigrid']:8.3f} µs\n"
-        f"  rank 0 up to the partition, per face   {result['root']:8.0f} bytes\n"
+        f"  rank 0 up to the partition, per face   {1e6 * result['integers']:8.3f} µs, "
+        f"{result['root']:.0f} bytes\n"
         f"  another rank, per owned vertex         {result['other']:8.0f} bytes\n"
         + "".join(f"  {stage:<38} {s:8.3f} s\n" for stage, s in result["seconds"].items()),
         flush=True,
@@ -121,7 +125,8 @@ def model(results):
     expected = iterations[-1] + growth * np.log10(n / last["vertices"])
     print(
         f"10⁹ triangles like {last['surface']}, genus {GENUS}: {growth:+.1f} iterations for each "
-        f"factor 10, {expected:.0f} expected; rank 0 holds {last['root']:.0f} GB"
+        f"factor 10, {expected:.0f} expected; rank 0 works {TRIANGLES * last['integers']:.0f} s "
+        f"before the others, with {1e-9 * TRIANGLES * last['root']:.0f} GB"
     )
     for N in (64, 256, 1024, 4096):
         owned = n / N
