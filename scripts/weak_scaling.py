@@ -8,7 +8,8 @@ them how the number of iterations grows.
     mpiexec -n 1 python scripts/weak_scaling.py delaunay
     mpiexec -n 2 python scripts/weak_scaling.py marching-cubes --vertices 600000
 
-Seconds are those of the processor, which others on the machine disturb less than the clock.  Memory
+Seconds are those of the processor, which others on the machine disturb less than the clock; waiting
+for another rank counts, so those of one rank are the cleanest.  Memory
 is what a process takes on top of what it had before; so it is exact for the first surface only, and
 close where each is several times as large as the one before.
 """

@@ -11,7 +11,7 @@ solutions, and the Gram matrix D of the gradients of the forms c + df (:mod:`.pa
 :mod:`.potentials`).  Each rank holds the potentials at the vertices of its own faces, the same
 values as its neighbours have there; so its forms are those of the whole surface on its faces, and
 
-.. math:: D_{ij} = \sum_{\text{ranks}} \sum_{\text{faces of the rank}} \int \omega_i \wedge *\omega_j
+.. math:: D_{ij} = \sum_{\text{ranks}} \; \sum_{\text{their faces}} \int \omega_i \wedge *\omega_j
 
 is the energy matrix of closed forms whatever f is.  It is summed from these squares and never from
 right-hand sides and solutions: by Dirichlet's principle it is never below the exact one, and a
