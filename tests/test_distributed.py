@@ -19,7 +19,7 @@ import igl_periods as ip
 from igl_periods.delaunay import intrinsic_delaunay
 from igl_periods.delta_complex import cotan_weights
 from igl_periods.distributed import __main__ as command
-from igl_periods.distributed import period_matrix
+from igl_periods.distributed import period_matrix, pipeline
 from igl_periods.distributed.collective import on_every_rank, on_root
 from igl_periods.distributed.libraries import load_petsc, world
 from igl_periods.distributed.partition import Partition
@@ -379,13 +379,18 @@ def test_a_failure_of_one_rank_alone_ends_all(torus):
 )
 def test_exit_codes(torus, monkeypatch, capsys, arguments, code, message):
     monkeypatch.setattr(command, "world", OneRank)
+    for module in (command, pipeline):
+        monkeypatch.setattr(module, "load_petsc", lambda: None)
     monkeypatch.chdir(torus.parent)
     assert command.main(arguments) == code
     printed = capsys.readouterr()
     assert message in printed.out + printed.err
 
 
-def test_command_without_mpi_is_refused(monkeypatch, capsys):
-    monkeypatch.setitem(sys.modules, "mpi4py", None)
+@pytest.mark.parametrize("missing", ["mpi4py", "petsc4py"])
+def test_command_without_its_libraries_is_refused(monkeypatch, capsys, missing):
+    if missing == "petsc4py":
+        monkeypatch.setattr(command, "world", OneRank)
+    monkeypatch.setitem(sys.modules, missing, None)
     assert command.main(["torus.off"]) == 1
-    assert "mpi4py cannot be imported" in capsys.readouterr().err
+    assert f"{missing} cannot be imported" in capsys.readouterr().err

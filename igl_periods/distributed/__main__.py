@@ -21,7 +21,7 @@ from igl_periods.serialization import SCHEMA, result_to_json
 from igl_periods.summary import summary
 
 from .collective import on_root
-from .libraries import world
+from .libraries import load_petsc, world
 from .pipeline import period_matrix
 
 if TYPE_CHECKING:
@@ -32,6 +32,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command on every rank; returns the exit code."""
     try:
         comm = world()
+        load_petsc()
     except ImportError as error:
         return _refused(str(error))
     try:

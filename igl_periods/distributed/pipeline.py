@@ -20,7 +20,7 @@ from igl_periods.rounding import allowance_for_loss, extreme_sensitivity
 from igl_periods.stages import stage
 
 from .collective import on_every_rank, on_root, scatter
-from .libraries import world
+from .libraries import load_petsc, world
 from .partition import Part, Partition
 from .potentials import harmonic_potentials
 
@@ -94,6 +94,7 @@ def period_matrix(
         raise ValueError(f"max_iterations = {max_iterations}: one iteration is the least.")
     if comm is None:
         comm = world()
+    load_petsc()  # now, and not after all the work of rank 0
     marked, part = _distributed(comm, surface, F, delaunay)
     potentials = harmonic_potentials(comm, part, rtol, max_iterations)
     with stage("energies"):
