@@ -20,21 +20,21 @@ solution that is stopped early costs sharpness of the bound and not its truth.
 **What stays on rank 0.**  Reading, gluing, marking and flipping are integer work on the whole mesh,
 and rank 0 does it alone; the parts are then cut out and sent one after the other, so that no
 other rank ever holds the mesh.  Rank 0 needs 220 bytes a triangle where nothing is flipped, up to
-380 where marching cubes have every fifth edge flipped, and 2 to 3 µs, with 0.3 µs more whenever N
+390 where marching cubes have every fifth edge flipped, and 2 to 3 µs, with 0.3 µs more whenever N
 doubles; after that it keeps the surface, 115 bytes a triangle, for the result.  At most
 :math:`2^{31}/3`, 715 million, triangles go through SciPy's graph searches, which count half-edges
 in 32 bits; PETSc with 32-bit integers goes up to 4 · 10⁹.
 
 **Weak scaling.**  Measured with ``scripts/weak_scaling.py`` for genus 2 and residuals of 1e-8, on
-surfaces of 10⁴ to 6 · 10⁵ vertices (n vertices, N ranks, 2g solutions of k iterations each):
+surfaces of 10⁴ or 5 · 10⁴ up to 6 · 10⁵ vertices (n vertices, N ranks, 2g solutions of k iterations each):
 
 ========================  ==========================  ========================================
 what                      Lawson's surface, Delaunay  marching cubes, flipped
 ========================  ==========================  ========================================
-iterations k              9, 9, 10, 10                18, 19, 19, 20
+iterations k              9 to 10                     18 to 20
 of each, per vertex       0.10 µs                     0.13 µs (0.14, 0.18 with both cores busy)
 multigrid, per vertex     2.6 µs                      4.0 µs
-another rank, per vertex  1150 bytes                  1360 bytes
+another rank, per vertex  1100 bytes                  1320 bytes
 ========================  ==========================  ========================================
 
 of which 16g bytes are the potentials.  k grows by one, if at all, for a factor of ten in n.  A
@@ -46,19 +46,19 @@ message to each neighbour, 8 bytes a ghost on the finest, and takes part in thre
           + \lambda \log_{20} n\, (36 + 3 \log_2 N) \right) + 4\,\mu s\; \frac nN
 
 with λ = 2 µs for a message.  For 10⁹ triangles (n = 5 · 10⁸, g = 2, k = 22 expected) like those
-of marching cubes:
+of marching cubes, were they divided already:
 
 ======  ================  ==============  =============  ==================  ================
 N       vertices a rank   memory a rank   ghosts         an iteration        multigrid and all
 ======  ================  ==============  =============  ==================  ================
-64      7.8 million       11 GB           8,400 (67 kB)  1.0 s + 0.7 ms      2 minutes
-256     2.0 million       2.7 GB          4,200 (34 kB)  0.25 s + 0.8 ms     30 s
-1,024   0.49 million      0.67 GB         2,100 (17 kB)  63 ms + 0.9 ms      7.5 s
-4,096   0.12 million      0.17 GB         1,000 (8 kB)   16 ms + 1.0 ms      1.9 s
+64      7.8 million       10 GB           8,400 (67 kB)  1.0 s + 0.7 ms      2 minutes
+256     2.0 million       2.6 GB          4,200 (34 kB)  0.25 s + 0.8 ms     30 s
+1,024   0.49 million      0.64 GB         2,100 (17 kB)  63 ms + 0.9 ms      7.5 s
+4,096   0.12 million      0.16 GB         1,000 (8 kB)   16 ms + 1.0 ms      1.9 s
 ======  ================  ==============  =============  ==================  ================
 
 Messages do not matter before some ten thousand ranks.  What does is rank 0: an hour or two of
-integer work, with 220 to 380 GB, before the others have anything to do.  So it is the *solution*
+integer work, with 220 to 390 GB, before the others have anything to do.  So it is the *solution*
 that is divided.  On one machine its factor takes 2.5 n log₂ n numbers at the least, 290 GB more,
 and a time like :math:`n^{3/2}`: from 1.7 s for 6 · 10⁵ vertices, eleven hours.
 

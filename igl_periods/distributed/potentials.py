@@ -34,10 +34,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_array
 
 from igl_periods.adaptive import ToleranceWarning
-from igl_periods.delta_complex import DeltaComplex, cotan_weights
+from igl_periods.delta_complex import cotan_weights
 from igl_periods.harmonic import edge_ends, laplacian, outflow
 from igl_periods.stages import logger, stage
 
@@ -50,7 +49,6 @@ if TYPE_CHECKING:
     from petsc4py.PETSc import KSP, Mat
 
 Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 _PREFIX = "igl_periods_"
 _THRESHOLD = "pc_gamg_threshold"
@@ -84,9 +82,9 @@ def harmonic_potentials(comm: Intracomm, part: Part, rtol: float, max_iterations
     if k == 0 or comm.allreduce(part.n_owned) == 1:
         return potentials
     petsc = load_petsc()
-    weights, (tail, head), summand = on_every_rank(comm, lambda: _own_laplacian(K))
+    weights, (tail, head) = on_every_rank(comm, lambda: (cotan_weights(K), edge_ends(K)))
     with stage("multigrid"):
-        solver = _solver(_summed(comm, part, summand), rtol, max_iterations)
+        solver = _solver(_summed_laplacian(comm, part, weights), rtol, max_iterations)
     ghosts = _integers(K.labels[part.n_owned :])
     f = petsc.Vec().createGhost(ghosts, (part.n_owned, petsc.DETERMINE), comm=comm)
     flux = f.duplicate()
@@ -108,15 +106,10 @@ def harmonic_potentials(comm: Intracomm, part: Part, rtol: float, max_iterations
     return potentials
 
 
-def _own_laplacian(K: DeltaComplex) -> tuple[Floats, tuple[Ints, Ints], csr_array]:
-    """Weights, ends of the edges and Laplacian of the faces of one rank."""
-    weights = cotan_weights(K)
-    return weights, edge_ends(K), laplacian(K, weights).tocsr()
-
-
-def _summed(comm: Intracomm, part: Part, summand: csr_array) -> Mat:
+def _summed_laplacian(comm: Intracomm, part: Part, weights: Floats) -> Mat:
     """The sum of the Laplacians of all parts, its rows where their vertices are owned."""
     petsc = load_petsc()
+    summand = on_every_rank(comm, lambda: laplacian(part.complex, weights).tocsr())
     own = petsc.Mat().createAIJ(
         summand.shape,
         csr=(_integers(summand.indptr), _integers(summand.indices), summand.data),
