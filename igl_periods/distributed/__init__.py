@@ -26,7 +26,8 @@ doubles; after that it keeps the surface, 115 bytes a triangle, for the result. 
 in 32 bits; PETSc with 32-bit integers goes up to 4 · 10⁹.
 
 **Weak scaling.**  Measured with ``scripts/weak_scaling.py`` for genus 2 and residuals of 1e-8, on
-surfaces of 10⁴ or 5 · 10⁴ up to 6 · 10⁵ vertices (n vertices, N ranks, 2g solutions of k iterations each):
+surfaces of 10⁴ or 5 · 10⁴ up to 6 · 10⁵ vertices (n vertices, N ranks, 2g solutions of k iterations
+each):
 
 ========================  ==========================  ========================================
 what                      Lawson's surface, Delaunay  marching cubes, flipped
