@@ -243,4 +243,6 @@ def test_allowance_covers_the_error_of_the_symplectic_mean(seed):
     D = extreme_energies(1 + seed % 5, seed)
     Pi = siegel_point(williamson(D)[1])
     assert np.linalg.eigvalsh(Pi.imag)[0] > 0
-    assert ball_arithmetic.distance_from_the_mean(D, Pi) <= algebraic_allowance(np.linalg.cholesky(D))
+    assert ball_arithmetic.distance_from_the_mean(D, Pi) <= algebraic_allowance(
+        np.linalg.cholesky(D)
+    )
