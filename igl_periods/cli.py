@@ -18,8 +18,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .cli_batch import add_batch_command
 from .cli_pictures import add_commands
-from .cli_surface import ALL, add_surface_arguments, read_surfaces
+from .cli_surface import (
+    ALL,
+    add_period_arguments,
+    add_surface_arguments,
+    chosen_options,
+    read_surfaces,
+)
 from .double import real_structure
 from .identification import identify
 from .mesh import MeshReport
@@ -51,8 +58,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except OSError as error:
         return _refused(str(error))
     except ValueError as error:
-        message = str(error)
-        return _refused(message if options.mesh in message else f"{options.mesh}: {message}")
+        message, mesh = str(error), getattr(options, "mesh", "")
+        return _refused(message if mesh in message else f"{mesh}: {message}")
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -70,7 +77,7 @@ def _parser() -> argparse.ArgumentParser:
         description="Compute the period matrix of a closed, oriented, connected triangle mesh.",
     )
     add_surface_arguments(compute, several=True)
-    _add_options(compute)
+    add_period_arguments(compute)
     compute.add_argument("--json", action="store_true", help="print one JSON document")
     reduction = compute.add_mutually_exclusive_group()
     reduction.add_argument(
@@ -93,7 +100,7 @@ def _parser() -> argparse.ArgumentParser:
         description="Compare the period matrix of a mesh with those of named surfaces.",
     )
     add_surface_arguments(recognise, several=True)
-    _add_options(recognise)
+    add_period_arguments(recognise)
     recognise.add_argument(
         "--mesh-error",
         type=float,
@@ -102,43 +109,15 @@ def _parser() -> argparse.ArgumentParser:
     )
     recognise.set_defaults(run=_identify)
     add_commands(commands)
+    add_batch_command(commands)
     return parser
-
-
-def _add_options(command: argparse.ArgumentParser) -> None:
-    """Add the options of :func:`period_matrix`."""
-    command.add_argument(
-        "--weights",
-        choices=("intrinsic", "extrinsic"),
-        default="intrinsic",
-        help="measure edge weights on the surface (default), or in space (no bound)",
-    )
-    command.add_argument(
-        "--no-delaunay",
-        dest="delaunay",
-        action="store_false",
-        help="keep the triangulation as it is (the bound is less sharp)",
-    )
-    command.add_argument(
-        "--degree", type=int, default=1, metavar="P", help="degree of the trial functions (1)"
-    )
-    command.add_argument(
-        "--tolerance",
-        type=float,
-        metavar="R",
-        help="raise the degree until the certified bound is at most R",
-    )
-
-
-def _chosen(options: argparse.Namespace) -> dict[str, Any]:
-    return {name: getattr(options, name) for name in ("weights", "delaunay", "degree", "tolerance")}
 
 
 def _identify(options: argparse.Namespace) -> int:
     surfaces, report = read_surfaces(options)
     print(_in_words(options, report))
     for k, K in enumerate(surfaces):
-        pm = period_matrix(K, **_chosen(options))
+        pm = period_matrix(K, **chosen_options(options))
         with stage("comparing"):
             found = identify(pm, tolerance=options.mesh_error)
         print(f"{_heading(k, len(surfaces))}\n{found}")
@@ -147,7 +126,9 @@ def _identify(options: argparse.Namespace) -> int:
 
 def _compute(options: argparse.Namespace) -> int:
     surfaces, report = read_surfaces(options)
-    results = [_reduced(period_matrix(K, **_chosen(options)), options.reduce) for K in surfaces]
+    results = [
+        _reduced(period_matrix(K, **chosen_options(options)), options.reduce) for K in surfaces
+    ]
     if options.json:
         print(json.dumps(_document(options, results, report), indent=1))
         return 0
@@ -183,7 +164,7 @@ def _document(
         "schema": SCHEMA,
         "version": importlib.metadata.version("igl_periods"),
         **surfaces,
-        "options": {**_chosen(options), **given},
+        "options": {**chosen_options(options), **given},
         "mesh": report.as_dict() if report else None,
     }
 

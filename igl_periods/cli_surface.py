@@ -1,16 +1,15 @@
-"""From the arguments of a command to the surface that it is about."""
+"""From the arguments of a command to the surface that it is about, and how to compute with it."""
 
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
+from typing import Any
 
 from .delta_complex import DeltaComplex
-from .mesh import MeshReport, load_mesh
+from .mesh import MeshReport
 from .pipeline import as_complex
-from .serialization import read_gluing
 from .stages import stage
-from .surface_choice import components_by_genus, surface_of
+from .surface_choice import components_by_genus, read_surface, surface_of
 
 ALL = "all"
 
@@ -22,6 +21,18 @@ def add_surface_arguments(command: argparse.ArgumentParser, several: bool = Fals
         metavar="MESH",
         help="a mesh (OBJ, OFF, PLY, STL, …), or a gluing of triangles (.json)",
     )
+    add_reading_arguments(command)
+    command.add_argument(
+        "--component",
+        type=_component if several else int,
+        metavar="K|all" if several else "K",
+        help="of several components take the K-th, counted from 1, those of large genus first"
+        + ("; or all" if several else ""),
+    )
+
+
+def add_reading_arguments(command: argparse.ArgumentParser) -> None:
+    """Add what is done to every mesh before anything is computed."""
     command.add_argument(
         "--repair",
         action="store_true",
@@ -32,26 +43,44 @@ def add_surface_arguments(command: argparse.ArgumentParser, several: bool = Fals
         action="store_true",
         help="take the double of a surface with boundary or without an orientation",
     )
+    command.add_argument("--quiet", action="store_true", help="no progress on the terminal")
+
+
+def add_period_arguments(command: argparse.ArgumentParser) -> None:
+    """Add the options of :func:`~igl_periods.pipeline.period_matrix`."""
     command.add_argument(
-        "--component",
-        type=_component if several else int,
-        metavar="K|all" if several else "K",
-        help="of several components take the K-th, counted from 1, those of large genus first"
-        + ("; or all" if several else ""),
+        "--weights",
+        choices=("intrinsic", "extrinsic"),
+        default="intrinsic",
+        help="measure edge weights on the surface (default), or in space (no bound)",
     )
-    command.add_argument("--quiet", action="store_true", help="no stage names on the terminal")
+    command.add_argument(
+        "--no-delaunay",
+        dest="delaunay",
+        action="store_false",
+        help="keep the triangulation as it is (the bound is less sharp)",
+    )
+    command.add_argument(
+        "--degree", type=int, default=1, metavar="P", help="degree of the trial functions (1)"
+    )
+    command.add_argument(
+        "--tolerance",
+        type=float,
+        metavar="R",
+        help="raise the degree until the certified bound is at most R",
+    )
+
+
+def chosen_options(options: argparse.Namespace) -> dict[str, Any]:
+    """The keywords of :func:`~igl_periods.pipeline.period_matrix` that were given."""
+    return {name: getattr(options, name) for name in ("weights", "delaunay", "degree", "tolerance")}
 
 
 def read_surfaces(options: argparse.Namespace) -> tuple[list[DeltaComplex], MeshReport | None]:
     """The surfaces that are meant, and the report of a mesh; a gluing (.json) has none."""
-    report = None
     with stage("reading the file"):
-        if Path(options.mesh).suffix.lower() == ".json":
-            K = read_gluing(options.mesh)
-        else:
-            V, F, report = load_mesh(options.mesh, repair=options.repair)
-    if report is not None:
-        K = as_complex(V, F)
+        surface, report = read_surface(options.mesh, options.repair)
+    K = as_complex(*surface)
     if options.component == ALL:
         return components_by_genus(surface_of(K, options.double)), report
     return [surface_of(K, options.double, options.component)], report

@@ -76,8 +76,8 @@ def read_mesh_file(path: str | PathLike[str]) -> MeshFile:
     if not file.is_file():
         raise MeshError(f"{file}: this is no file.")
     extension = file.suffix.lower()
-    if extension not in (*_READERS, *_OPEN3D):
-        known = " ".join((*_READERS, *_OPEN3D))
+    if extension not in EXTENSIONS:
+        known = " ".join(EXTENSIONS)
         raise MeshError(f"{file}: the format {extension or '(none)'!r} is not one of {known}.")
     if file.stat().st_size == 0:
         raise MeshError(f"{file}: the file is empty.")
@@ -265,3 +265,5 @@ _READERS: dict[str, Callable[[Path], MeshFile]] = {
     ".ply": _read_ply,
     ".stl": _read_stl,
 }
+# Extensions of the files that can be read.
+EXTENSIONS = (*_READERS, *_OPEN3D)

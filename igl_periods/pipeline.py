@@ -108,7 +108,7 @@ def period_matrix(
     >>> pm.genus, bool(abs(pm.reduced().matrix[0, 0] - 1j) < 1e-12), pm.bound < 1e-12
     (1, True, True)
     """
-    _check_options(weights, degree, tolerance)
+    check_options(weights, degree, tolerance)
     K = as_complex(surface, F)
     room = room_for_forms(K, max_memory)
     if weights == "extrinsic":
@@ -179,7 +179,8 @@ def as_complex(surface: Any, F: ArrayLike | None = None) -> DeltaComplex:
         return DeltaComplex.from_mesh(surface, np.asarray(F))
 
 
-def _check_options(weights: str, degree: int, tolerance: float | None) -> None:
+def check_options(weights: str, degree: int, tolerance: float | None) -> None:
+    """Refuse options of :func:`period_matrix` that have no such value or contradict each other."""
     if weights not in ("intrinsic", "extrinsic"):
         raise ValueError(f'weights must be "intrinsic" or "extrinsic", not {weights!r}.')
     if not (isinstance(degree, Real) and float(degree).is_integer() and degree >= 1):

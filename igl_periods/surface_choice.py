@@ -1,10 +1,51 @@
-"""Which surface of a mesh is meant: its double, or one of its components."""
+"""From a file to the surface that is meant: its mesh or gluing, the double, a component."""
 
 from __future__ import annotations
+
+from os import PathLike
+from pathlib import Path
+from typing import Any
 
 from .delta_complex import DeltaComplex
 from .double import double
 from .errors import ComplexError
+from .mesh import load_mesh
+from .mesh_file import EXTENSIONS
+from .mesh_report import MeshReport
+from .serialization import read_gluing
+
+_GLUING = ".json"
+# Extensions of the files that hold surfaces.
+SURFACE_EXTENSIONS = (*EXTENSIONS, _GLUING)
+
+
+def read_surface(
+    path: str | PathLike[str], repair: bool = False
+) -> tuple[tuple[Any, ...], MeshReport | None]:
+    """Read a mesh, or a gluing of triangles (.json).
+
+    Parameters
+    ----------
+    path : path-like
+    repair : bool
+        As in :func:`load_mesh`; a gluing is never repaired.
+
+    Returns
+    -------
+    surface : tuple
+        ``(V, F)`` or ``(K,)``: the arguments of :func:`~igl_periods.pipeline.as_complex`.
+    report : MeshReport or None
+        None for a gluing.
+
+    Raises
+    ------
+    FileNotFoundError, MeshError, ComplexError
+        As :func:`load_mesh` and :func:`~igl_periods.serialization.read_gluing`.
+    """
+    if Path(path).suffix.lower() == _GLUING:
+        return (read_gluing(path),), None
+    V, F, report = load_mesh(path, repair=repair)
+    return (V, F), report
 
 
 def surface_of(

@@ -1,0 +1,182 @@
+"""Many meshes: one row for each of their components, in a Parquet file.
+
+    files ─ workers ▶ rows ─ journal ▶ results.parquet
+
+Files are computed by the processes of a cluster (:mod:`igl_periods.batch_cluster`), which read them
+by their paths.  Rows are kept in a journal beside the output as they arrive
+(:mod:`igl_periods.batch_journal`), so that a run which was interrupted, by whatever, goes on where
+it stopped; when all files have their rows, they are written in the order of the files
+(:mod:`igl_periods.batch_table`).  What a row holds depends on nothing but the file and the options
+(:mod:`igl_periods.batch_rows`), however many workers there are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Mapping
+from contextlib import AbstractContextManager, closing, nullcontext
+from dataclasses import dataclass
+from importlib.metadata import version
+from os import PathLike
+from pathlib import Path
+
+from dask.system import CPU_COUNT
+from distributed import Client
+
+from .batch_cluster import BatchError as BatchError
+from .batch_cluster import local_cluster as local_cluster
+from .batch_cluster import outcomes
+from .batch_cluster import remote_cluster as remote_cluster
+from .batch_files import find_files as find_files
+from .batch_journal import Journal
+from .batch_rows import DIED, Row, file_hash, refused_row
+from .batch_rows import BatchOptions as BatchOptions
+from .batch_rows import rows_of as rows_of
+from .batch_table import write_rows
+
+
+@dataclass(frozen=True)
+class BatchResult:
+    """What a batch did.
+
+    Attributes
+    ----------
+    rows : list of dict
+        All rows of the output, in its order.
+    computed, kept : int
+        How many files were computed, and of how many the rows were there.
+    """
+
+    rows: list[Row]
+    computed: int
+    kept: int
+
+    @property
+    def refused(self) -> list[Row]:
+        """The rows with an error."""
+        return [row for row in self.rows if row["error"] is not None]
+
+
+def run_batch(
+    files: Mapping[str, str | PathLike[str]],
+    output: str | PathLike[str],
+    options: BatchOptions | None = None,
+    *,
+    client: Client | None = None,
+    workers: int | None = None,
+    restart: bool = False,
+    retry: bool = False,
+    progress: Callable[[int, int, int], None] | None = None,
+) -> BatchResult:
+    """Compute the rows of many files, and write them to a Parquet file.
+
+    The journal ``<output>.journal`` keeps the rows of finished files.  They are used again as long
+    as the bytes of the file, the options and the version of the library are the same.
+
+    Parameters
+    ----------
+    files : mapping of str to path-like
+        The paths, as workers see them, by the names that the rows shall have:
+        :func:`find_files`.
+    output : path-like
+    options : BatchOptions, optional
+    client : distributed.Client, optional
+        The cluster to use; default: processes on this machine, for the time of the call.  A script
+        that is not to be run by these processes too does so under
+        ``if __name__ == "__main__":``.
+    workers : int, optional
+        How many processes, if there is no client; default: the number of cores.
+    restart : bool
+        Forget the journal.
+    retry : bool
+        Compute files anew that have a row with an error.
+    progress : callable, optional
+        Called as ``progress(done, refused, total)``, which count files.
+
+    Returns
+    -------
+    BatchResult
+
+    Raises
+    ------
+    BatchError
+        If the cluster is lost.  What was finished is in the journal.
+    OSError
+        If the journal or the output cannot be written, or another run is writing them.
+
+    Examples
+    --------
+    A hundred meshes on the cores of this machine::
+
+        run_batch(find_files("meshes"), "results.parquet", BatchOptions(tolerance=1e-6))
+    """
+    options, place = options or BatchOptions(), Path(output).absolute()
+    paths = {name: Path(path) for name, path in files.items()}
+    with Journal(place.with_name(f"{place.name}.journal"), restart) as journal:
+        done = {
+            name: journal.rows[name]
+            for name, path in paths.items()
+            if name in journal.rows and _is_current(journal.rows[name], path, options, retry)
+        }
+        pending = {name: path for name, path in paths.items() if name not in done}
+        refused = sum(map(_is_refused, done.values()))
+        with closing(_computed(pending, options, client, workers)) as stream:
+            for finished in stream:
+                journal.append(finished)
+                done.update(finished)
+                refused += sum(_is_refused(rows) for _, rows in finished)
+                if progress:
+                    progress(len(done), refused, len(paths))
+        rows = [row for name in paths for row in done[name]]
+        write_rows(rows, place)
+    return BatchResult(rows, len(pending), len(paths) - len(pending))
+
+
+def _is_current(rows: list[Row], path: Path, options: BatchOptions, retry: bool) -> bool:
+    """Whether the rows of a file are what would be computed now."""
+    if retry and _is_refused(rows):
+        return False
+    first = rows[0]
+    if (first["options"], first["version"]) != (options.as_json(), version("igl_periods")):
+        return False
+    return bool(first["hash"] == file_hash(path))
+
+
+def _is_refused(rows: list[Row]) -> bool:
+    return any(row["error"] is not None for row in rows)
+
+
+def _computed(
+    files: dict[str, Path], options: BatchOptions, client: Client | None, workers: int | None
+) -> Generator[list[tuple[str, list[Row]]]]:
+    """The rows of files as they arrive.  What kills workers is tried again alone at the end."""
+    if not files:
+        return
+    suspects: dict[str, int] = {}
+    with (
+        _cluster(client, workers or CPU_COUNT) as cluster,
+        closing(outcomes(cluster, files, options)) as stream,
+    ):
+        for arrived in stream:
+            suspects |= {name: outcome for name, outcome in arrived if isinstance(outcome, int)}
+            yield [(name, rows) for name, rows in arrived if not isinstance(rows, int)]
+    if not suspects:
+        return
+    with _cluster(client, 1) as cluster:
+        for name, deaths in suspects.items():
+            yield [(name, _alone(cluster, name, files[name], options, deaths))]
+
+
+def _alone(client: Client, name: str, path: Path, options: BatchOptions, deaths: int) -> list[Row]:
+    """The rows of a file on which workers have died, computed with no other beside it."""
+    ((_, outcome),) = next(outcomes(client, {name: path}, options))
+    if not isinstance(outcome, int):
+        return outcome
+    error = (
+        f"the worker died {deaths + outcome} times, in the end with no other file beside it: the "
+        "memory does not suffice, or a library crashed."
+    )
+    return [refused_row(name, path, options, error=error, error_kind=DIED)]
+
+
+def _cluster(client: Client | None, workers: int) -> AbstractContextManager[Client]:
+    return local_cluster(workers) if client is None else nullcontext(client)
