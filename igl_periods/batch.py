@@ -109,7 +109,7 @@ def run_batch(
 
         run_batch(find_files("meshes"), "results.parquet", BatchOptions(tolerance=1e-6))
     """
-    options, place = options or BatchOptions(), Path(output).absolute()
+    options, place = options or BatchOptions(), _checked_output(Path(output).absolute())
     paths = {name: Path(path) for name, path in files.items()}
     with Journal(place.with_name(f"{place.name}.journal"), restart) as journal:
         done = {
@@ -119,16 +119,30 @@ def run_batch(
         }
         pending = {name: path for name, path in paths.items() if name not in done}
         refused = sum(map(_is_refused, done.values()))
+        tell = progress or _silent
+        tell(len(done), refused, len(paths))
         with closing(_computed(pending, options, client, workers)) as stream:
             for finished in stream:
                 journal.append(finished)
                 done.update(finished)
                 refused += sum(_is_refused(rows) for _, rows in finished)
-                if progress:
-                    progress(len(done), refused, len(paths))
+                tell(len(done), refused, len(paths))
         rows = [row for name in paths for row in done[name]]
         write_rows(rows, place)
     return BatchResult(rows, len(pending), len(paths) - len(pending))
+
+
+def _checked_output(place: Path) -> Path:
+    """The output, refused before anything is computed if it cannot be written in the end."""
+    if not place.parent.is_dir():
+        raise FileNotFoundError(f"there is no folder {str(place.parent)!r} for {place.name!r}")
+    if place.is_dir():
+        raise IsADirectoryError(f"the output {str(place)!r} is a folder")
+    return place
+
+
+def _silent(done: int, refused: int, total: int) -> None:
+    """Tell nobody."""
 
 
 def _is_current(rows: list[Row], path: Path, options: BatchOptions, retry: bool) -> bool:

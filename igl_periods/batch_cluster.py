@@ -13,11 +13,13 @@ import signal
 from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import CancelledError
 from contextlib import contextmanager, suppress
+from multiprocessing import resource_tracker
 from pathlib import Path
 from typing import Any
 
 import dask
 from distributed import Client, Future, KilledWorker, LocalCluster
+from distributed import TimeoutError as DaskTimeoutError
 
 from .batch_rows import BatchOptions, Row, refused_row
 from .batch_worker import compute_file
@@ -46,6 +48,8 @@ _CONFIG = {
     # A factorisation may keep the interpreter busy for minutes; the process that started the
     # worker sees if it ends.
     "distributed.scheduler.worker-ttl": None,
+    # A worker that is slow to come back after its death, or dies again, is not given up.
+    "distributed.deploy.lost-worker-timeout": "1000 days",
     # Nothing large is stored on workers: they have no reason to pause or to write to disk.
     "distributed.worker.memory.target": False,
     "distributed.worker.memory.spill": False,
@@ -59,8 +63,9 @@ _CONFIG = {
 
 _POLL = 1.0
 # How long a cluster may have no worker at all, in seconds.
-_PATIENCE = 60.0
-_CONNECTING = "10s"
+_PATIENCE = 120.0
+# How long to wait for a scheduler, and for a first worker of it.
+_CONNECTING = 15.0
 
 
 class BatchError(RuntimeError):
@@ -191,12 +196,14 @@ def _rows_or_deaths(
 
 
 def _check_workers(client: Client, address: str) -> None:
-    found: Any = client.get_versions(packages=list(_SAME_VERSIONS))
-    if not found["workers"]:
+    try:
+        client.wait_for_workers(1, timeout=_CONNECTING)
+    except DaskTimeoutError as error:
         raise BatchError(
             f"the scheduler at {address} has no workers. Start some: 'dask worker {address} "
             "--nthreads 1', where the package is installed and the files are seen."
-        )
+        ) from error
+    found: Any = client.get_versions(packages=list(_SAME_VERSIONS))
     here = found["client"]["packages"]
     for worker, there in found["workers"].items():
         for name in _SAME_VERSIONS:
@@ -215,6 +222,8 @@ def _interrupts_blocked() -> Iterator[Callable[[], None]]:
     A terminal sends it to all processes, and workers are to be closed by the one that started
     them.  They inherit which signals are blocked.
     """
+    # Starting this process of Python's own would unblock signals again.
+    resource_tracker.ensure_running()
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
 
     def allow() -> None:

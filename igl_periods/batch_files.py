@@ -62,9 +62,10 @@ def _contents(place: Path) -> tuple[Path, list[Path]]:
 def _below(folder: Path) -> Iterator[Path]:
     for here, folders, names in os.walk(folder):
         folders[:] = [name for name in folders if not name.startswith(".")]
-        for name in names:
-            if _is_surface(name) and not name.startswith("."):
-                yield Path(here, name)
+        for path in (Path(here, name) for name in names if not name.startswith(".")):
+            # Links to nothing are missing files; pipes and devices are no files at all.
+            if _is_surface(path.name) and (path.is_file() or not path.exists()):
+                yield path
 
 
 def _is_surface(name: str) -> bool:

@@ -21,6 +21,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 import time
 import warnings
 from collections.abc import Callable, Iterator
@@ -159,6 +160,8 @@ def refused_row(name: str, path: str | PathLike[str], options: BatchOptions, **e
 def file_hash(path: str | PathLike[str]) -> str | None:
     """SHA-256 of the bytes of a file in hexadecimal digits; None if they cannot be read."""
     digest = hashlib.sha256()
+    if not os.path.isfile(path):
+        return None
     try:
         with open(path, "rb") as file:
             while block := file.read(_BYTES_AT_ONCE):

@@ -1,6 +1,6 @@
 """The command ``igl-periods``: parse, call, print.
 
-Exit codes: 0 the matrix was computed, 1 the mesh was refused, 2 wrong usage.
+Exit codes: 0 the matrix was computed, 1 the mesh was refused, 2 wrong usage, 130 interrupted.
 """
 
 from __future__ import annotations

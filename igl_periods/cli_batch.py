@@ -6,9 +6,9 @@ import argparse
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, nullcontext
+from contextlib import ExitStack, contextmanager, nullcontext
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 from .batch_rows import DIED, BatchOptions
 from .cli_surface import add_period_arguments, add_reading_arguments, chosen_options
@@ -90,7 +90,7 @@ def _run(options: argparse.Namespace, chosen: BatchOptions) -> BatchResult:
 
     files = find_files(*options.sources)
     cluster = remote_cluster(options.scheduler) if options.scheduler else nullcontext(None)
-    with cluster as client, _progress(len(files), options.quiet) as progress:
+    with cluster as client, _progress(options.quiet) as progress:
         return run_batch(
             files,
             options.output,
@@ -104,13 +104,19 @@ def _run(options: argparse.Namespace, chosen: BatchOptions) -> BatchResult:
 
 
 @contextmanager
-def _progress(total: int, quiet: bool) -> Iterator[Callable[[int, int, int], None]]:
-    """A bar on the terminal, and on nothing else."""
+def _progress(quiet: bool) -> Iterator[Callable[[int, int, int], None]]:
+    """A bar on the terminal, and on nothing else, from the first call on."""
     from tqdm import tqdm
 
-    with tqdm(total=total, unit="file", disable=True if quiet else None, leave=False) as bar:
+    with ExitStack() as stack:
+        bar: tqdm[NoReturn] | None = None
 
         def show(done: int, refused: int, total: int) -> None:
+            nonlocal bar
+            if bar is None:
+                silent = True if quiet else None
+                bar = tqdm(total=total, initial=done, unit="file", leave=False, disable=silent)
+                stack.enter_context(bar)
             bar.set_postfix(refused=refused, refresh=False)
             bar.update(done - bar.n)
 
@@ -118,7 +124,6 @@ def _progress(total: int, quiet: bool) -> Iterator[Callable[[int, int, int], Non
 
 
 def _in_words(output: str, result: BatchResult) -> list[str]:
-    refused = result.refused
     files = counted(result.computed + result.kept, "file", "files")
     rows = counted(len(result.rows), "row", "rows")
     if result.computed:
@@ -126,10 +131,12 @@ def _in_words(output: str, result: BatchResult) -> list[str]:
     else:
         what = "nothing to do: no file has changed"
     lines = [f"{output}: {rows} of {files} ({what})"]
-    if refused:
+    if refused := result.refused:
         kinds = Counter(row["error_kind"] for row in refused).most_common()
         why = ", ".join(f"{count} {kind}" for kind, count in kinds)
-        lines.append(f"  {len(refused)} without a period matrix, and the reason in 'error': {why}")
+        lines.append(
+            f"  {len(refused)} without a period matrix (the column 'error' says why): {why}"
+        )
     dead = [row["file"] for row in refused if row["error_kind"] == DIED]
     if dead:
         lines.append(f"  workers died on {', '.join(dead)}: try fewer --workers, with --retry")
