@@ -574,12 +574,14 @@ def test_clusters_that_cannot_be_used(address, monkeypatch):
             remote_cluster(other),
         ):
             pass
-    real = distributed.versions._version_cached
-    monkeypatch.setattr(
-        distributed.versions,
-        "_version_cached",
-        lambda name: "9.9" if name == "igl_periods" else real(name),
-    )
+    found_versions = distributed.Client.get_versions
+
+    def get_versions(client, **options):
+        found = found_versions(client, **options)
+        found["client"]["packages"]["igl_periods"] = "9.9"
+        return found
+
+    monkeypatch.setattr(distributed.Client, "get_versions", get_versions)
     with (
         pytest.raises(BatchError, match=r"has igl_periods \S+, and here it is 9.9"),
         remote_cluster(address),
