@@ -20,6 +20,7 @@ from typing import Any
 import dask
 from distributed import Client, Future, KilledWorker, LocalCluster
 from distributed import TimeoutError as DaskTimeoutError
+from distributed.utils import silence_logging_cmgr
 
 from .batch_rows import BatchOptions, Row, refused_row
 from .batch_worker import compute_file
@@ -109,16 +110,18 @@ def remote_cluster(address: str) -> Iterator[Client]:
     BatchError
         If it cannot be reached, has no workers, or has other versions of what decides the rows.
     """
-    try:
-        client = Client(address, timeout=_CONNECTING, set_as_default=False)
-    except (OSError, ValueError) as error:
-        raise BatchError(
-            f"there is no scheduler at {address} that can be reached ({error}). Start one with "
-            "'dask scheduler' and give the address that it prints."
-        ) from error
-    with client:
-        _check_workers(client, address)
-        yield client
+    # What goes wrong is said in the error.
+    with silence_logging_cmgr(logging.CRITICAL, root="distributed.client"):
+        try:
+            client = Client(address, timeout=_CONNECTING, set_as_default=False)
+        except (OSError, ValueError) as error:
+            raise BatchError(
+                f"there is no scheduler at {address} that can be reached ({error}). Start one with "
+                "'dask scheduler' and give the address that it prints."
+            ) from error
+        with client:
+            _check_workers(client, address)
+            yield client
 
 
 def outcomes(
@@ -170,7 +173,8 @@ def _first(done: queue.SimpleQueue[Future[Rows]], client: Client) -> Future[Rows
     while deserted * _POLL < _PATIENCE:
         with suppress(queue.Empty):
             return done.get(timeout=_POLL)
-        deserted = 0 if client.nthreads() else deserted + 1
+        staffed = client.status == "running" and client.nthreads()
+        deserted = 0 if staffed else deserted + 1
     raise BatchError(
         f"for {_PATIENCE:.0f} s the cluster has had no worker. What was finished is kept: start "
         "workers, and run the same command again."
