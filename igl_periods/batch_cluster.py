@@ -60,6 +60,7 @@ _CONFIG = {
     "distributed.nanny.pre-spawn-environ.OMP_NUM_THREADS": 1,
     "distributed.nanny.pre-spawn-environ.MKL_NUM_THREADS": 1,
     "distributed.nanny.pre-spawn-environ.OPENBLAS_NUM_THREADS": 1,
+    "distributed.nanny.pre-spawn-environ.DASK_LOGGING__DISTRIBUTED": "critical",
 }
 
 _POLL = 1.0
@@ -91,9 +92,18 @@ def local_cluster(workers: int) -> Iterator[Client]:
             # Where the scheduler answers requests about its health: any port that is free.
             scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
         )
-        with cluster, Client(cluster, set_as_default=False) as client:
-            allow_interrupts()
-            yield client
+        try:
+            with Client(cluster, set_as_default=False) as client:
+                allow_interrupts()
+                yield client
+                if workers:
+                    # A worker that is just being started anew cannot be closed in order.
+                    with suppress(DaskTimeoutError):
+                        client.wait_for_workers(workers, timeout=_CONNECTING)
+        finally:
+            # All that counts has arrived; what cannot be closed ends with this process.
+            with suppress(Exception):
+                cluster.close()
 
 
 @contextmanager

@@ -503,13 +503,14 @@ def test_a_file_that_kills_every_worker_is_a_row(tmp_path, cluster, address, cap
 
 
 @pytest.mark.slow
-def test_poison_for_workers_of_our_own(tmp_path, habits):
+def test_files_that_kill_workers_of_our_own(tmp_path, habits):
     write_tori(tmp_path / "m", 8)
     for name in ("poison_1.off", "poison_2.off"):
         (tmp_path / "m" / name).write_text(TETRAHEDRON)
     with dask.config.set({"distributed.worker.preload": [str(habits)]}):
         result = run_batch(find_files(tmp_path / "m"), tmp_path / "x.parquet", workers=2)
-    assert [row["file"] for row in result.refused] == ["poison_1.off", "poison_2.off"]
+    kinds = {row["file"]: row["error_kind"] for row in result.refused}
+    assert kinds == dict.fromkeys(["poison_1.off", "poison_2.off"], "WorkerDied")
     assert len(result.rows) == 10
 
 
