@@ -72,9 +72,14 @@ def tree_cotree(K: DeltaComplex, root: int = 0) -> TreeCotree:
     """
     if not 0 <= root < K.n_vertices:
         raise ValueError(f"root = {root} is no vertex: there are {K.n_vertices}, counted from 0.")
-    tail, head = half_edge_ends(K)
-    m = 3 * K.n_faces
-    graph = csr_array((np.ones(m, dtype=np.int8), (tail, head)), shape=(K.n_vertices,) * 2)
+    # Of 32 bits where they do: time goes into moving indices about.
+    index = np.int32 if 3 * K.n_faces < np.iinfo(np.int32).max else np.int64
+    half_edge = np.arange(3 * K.n_faces + 1, dtype=index)
+    tail, head = (end.astype(index) for end in half_edge_ends(K))
+    ones = np.ones(tail.size)
+    # The half-edges at each vertex, as the rows of a transpose.
+    around = csr_array((head, tail, half_edge), shape=(tail.size, K.n_vertices)).tocsc()
+    graph = csr_array((ones, around.data, around.indptr), shape=(K.n_vertices,) * 2)
     before = _predecessors(graph, root)
     vertex_parent = _first_per_node(np.flatnonzero(before[head] == tail), head, K.n_vertices)
     if np.count_nonzero(vertex_parent < 0) > 1:
@@ -82,16 +87,15 @@ def tree_cotree(K: DeltaComplex, root: int = 0) -> TreeCotree:
 
     in_tree = np.zeros(K.n_edges, dtype=bool)
     in_tree[K.edge.ravel()[vertex_parent[vertex_parent >= 0]]] = True
-    crossable = ~in_tree[K.edge]
-    here, there = np.arange(m) // 3, K.twin.ravel() // 3
-    open_sides = crossable.ravel()
-    start = np.concatenate([[0], np.cumsum(open_sides)[2::3]])
-    dual_graph = csr_array(
-        (np.ones(start[-1], dtype=np.int8), there[open_sides], start), shape=(K.n_faces,) * 2
-    )
+    open_sides = ~in_tree[K.edge]
+    there = K.twin.astype(index) // 3
+    start = np.zeros(K.n_faces + 1, dtype=index)
+    np.cumsum(np.count_nonzero(open_sides, axis=1), out=start[1:])
+    across = there[open_sides]
+    dual_graph = csr_array((ones[: across.size], across, start), shape=(K.n_faces,) * 2)
     before = _predecessors(dual_graph, 0)
-    towards_parent = np.flatnonzero(open_sides & (before[here] == there))
-    face_parent = _first_per_node(towards_parent, here, K.n_faces)
+    towards_parent = np.flatnonzero(open_sides & (before[:, None] == there))
+    face_parent = _first_per_node(towards_parent, half_edge[:-1] // 3, K.n_faces)
 
     in_tree[K.edge.ravel()[face_parent[face_parent >= 0]]] = True
     generators = np.flatnonzero((K.sign.ravel() > 0) & ~in_tree[K.edge.ravel()])
