@@ -22,9 +22,11 @@ from .cli_batch import add_batch_command
 from .cli_pictures import add_commands
 from .cli_surface import (
     ALL,
+    add_memory_argument,
     add_period_arguments,
     add_surface_arguments,
     chosen_options,
+    memory_limit,
     read_surfaces,
 )
 from .double import real_structure
@@ -35,7 +37,7 @@ from .pipeline import period_matrix
 from .serialization import SCHEMA, result_to_json
 from .siegel import SIEGEL_GENUS_LIMIT
 from .stages import logger, stage
-from .summary import summary
+from .summary import LARGEST_PRINTED, summary
 
 Result = tuple[PeriodMatrix, PeriodMatrix | None, NDArray[np.int64] | None]
 
@@ -78,6 +80,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     add_surface_arguments(compute, several=True)
     add_period_arguments(compute)
+    add_memory_argument(compute)
     compute.add_argument("--json", action="store_true", help="print one JSON document")
     reduction = compute.add_mutually_exclusive_group()
     reduction.add_argument(
@@ -126,11 +129,12 @@ def _identify(options: argparse.Namespace) -> int:
 
 def _compute(options: argparse.Namespace) -> int:
     surfaces, report = read_surfaces(options)
-    results = [
-        _reduced(period_matrix(K, **chosen_options(options)), options.reduce) for K in surfaces
-    ]
+    chosen = chosen_options(options) | memory_limit(options)
+    results = [_reduced(period_matrix(K, **chosen), options.reduce) for K in surfaces]
     if options.json:
-        print(json.dumps(_document(options, results, report), indent=1))
+        # Large matrices are for programs: hundreds of megabytes if each entry has its own line.
+        readable = all(pm.genus <= LARGEST_PRINTED for pm, *_ in results)
+        print(json.dumps(_document(options, results, report), indent=1 if readable else None))
         return 0
     print(_in_words(options, report))
     for k, result in enumerate(results):

@@ -10,12 +10,11 @@ from contextlib import ExitStack, contextmanager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
-from .batch_rows import DIED, BatchOptions
 from .cli_surface import add_period_arguments, add_reading_arguments, chosen_options
 from .mesh_facts import counted
 
 if TYPE_CHECKING:
-    from .batch import BatchResult
+    from .batch import BatchOptions, BatchResult
 
 _WRONG_USAGE, _INTERRUPTED = 2, 130
 
@@ -65,7 +64,7 @@ def add_batch_command(commands: argparse._SubParsersAction[argparse.ArgumentPars
 
 def _batch(options: argparse.Namespace) -> int:
     # Dask and Arrow take a second to import, which no other command shall wait for.
-    from .batch import BatchError
+    from .batch import BatchError, BatchOptions
 
     try:
         chosen = BatchOptions(options.repair, options.double, **chosen_options(options))
@@ -137,8 +136,7 @@ def _in_words(output: str, result: BatchResult) -> list[str]:
         lines.append(
             f"  {len(refused)} without a period matrix (the column 'error' says why): {why}"
         )
-    dead = [row["file"] for row in refused if row["error_kind"] == DIED]
-    if dead:
+    if dead := result.deadly:
         lines.append(f"  workers died on {', '.join(dead)}: try fewer --workers, with --retry")
     return lines
 

@@ -71,8 +71,23 @@ def add_period_arguments(command: argparse.ArgumentParser) -> None:
     )
 
 
+def add_memory_argument(command: argparse.ArgumentParser) -> None:
+    """Add the limit of memory; :func:`memory_limit` reads it."""
+    command.add_argument(
+        "--max-memory",
+        type=float,
+        metavar="GB",
+        help="refuse what would take more memory (default: what is available)",
+    )
+
+
+def memory_limit(options: argparse.Namespace) -> dict[str, float]:
+    """The keyword of :func:`~igl_periods.pipeline.period_matrix` for it, if it was given."""
+    return {} if options.max_memory is None else {"max_memory": 1e9 * options.max_memory}
+
+
 def chosen_options(options: argparse.Namespace) -> dict[str, Any]:
-    """The keywords of :func:`~igl_periods.pipeline.period_matrix` that were given."""
+    """The keywords of :func:`~igl_periods.pipeline.period_matrix` that decide about the result."""
     return {name: getattr(options, name) for name in ("weights", "delaunay", "degree", "tolerance")}
 
 

@@ -28,6 +28,7 @@ Eppstein, "Dynamic generators of topologically embedded graphs" (2003).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -263,7 +264,7 @@ def _predecessors(graph: csr_array, root: int) -> Ints:
     return breadth_first_order(graph, root, directed=True, return_predecessors=True)[1]
 
 
-def _first_per_node(half_edges: Ints, node: Ints, n: int) -> Ints:
+def _first_per_node(half_edges: Ints, node: NDArray[Any], n: int) -> Ints:
     """For each node the least of the half-edges at it, or -1."""
     first = np.full(n, -1, dtype=np.int64)
     descending = half_edges[::-1]

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from .periods import PeriodMatrix
 from .siegel import SIEGEL_GENUS_LIMIT
 
-_LARGEST_PRINTED = 8
+LARGEST_PRINTED = 8  # genus up to which matrices are printed
 
 
 def summary(pm: PeriodMatrix, reduced: PeriodMatrix | None, gamma: NDArray[np.int64] | None) -> str:
@@ -62,7 +62,7 @@ def _marking_in_words(pm: PeriodMatrix, reduced: PeriodMatrix | None) -> str:
 def _complex_rows(pm: PeriodMatrix) -> list[str]:
     """Rows with as many digits as are known."""
     Pi = pm.matrix
-    if len(Pi) > _LARGEST_PRINTED:
+    if len(Pi) > LARGEST_PRINTED:
         return [f"{len(Pi)} × {len(Pi)} entries; --json prints all of them"]
     digits = 6
     if pm.bound:
@@ -73,7 +73,7 @@ def _complex_rows(pm: PeriodMatrix) -> list[str]:
 
 
 def _integer_rows(gamma: NDArray[np.int64]) -> list[str]:
-    if len(gamma) > 2 * _LARGEST_PRINTED:
+    if len(gamma) > 2 * LARGEST_PRINTED:
         return [f"{len(gamma)} × {len(gamma)} integers; --json prints all of them"]
     width = max(len(str(entry)) for entry in gamma.ravel())
     return [" ".join(f"{entry:{width}d}" for entry in row) for row in gamma]

@@ -145,7 +145,7 @@ def growth(options):
     """One family of surfaces, and the exponents that fit its times and memory."""
     rows = [
         against_cholmod(
-            f"marching cubes {n:,}", *marching_cubes_surface(n), options.repeats, ("amd",)
+            f"Lawson's, {n:,} vertices", *delaunay_surface(n), options.repeats, ("amd",)
         )
         for n in GROWTH
     ]

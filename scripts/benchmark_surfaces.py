@@ -9,14 +9,15 @@ from igl_periods.surfaces import lawson_surface
 
 
 def delaunay_surface(n_vertices):
-    """Lawson's surface, cut into four as often as it takes: about ``n_vertices`` vertices."""
+    """Lawson's surface, cut into four until it has about ``n_vertices`` vertices."""
+    n_splits = max(round(np.log(n_vertices / 2_000) / np.log(4)), 1)
     coarse = next(
         mesh
         for n in itertools.count(4, 2)
-        if 256 * len((mesh := lawson_surface(2, 1, n))[0]) > 0.95 * n_vertices
+        if 4**n_splits * len((mesh := lawson_surface(2, 1, n))[0]) > 0.95 * n_vertices
     )
     V, F = (np.ascontiguousarray(array) for array in coarse)
-    for _ in range(4):
+    for _ in range(n_splits):
         V, F = split(V, F)
     return V, F
 

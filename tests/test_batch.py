@@ -26,7 +26,6 @@ from random_surfaces import noisy_torus, torus_of_revolution
 from threadpoolctl import threadpool_limits
 
 import igl_periods as ip
-from igl_periods import batch_cluster
 from igl_periods.batch import (
     BatchError,
     BatchOptions,
@@ -36,8 +35,9 @@ from igl_periods.batch import (
     rows_of,
     run_batch,
 )
-from igl_periods.batch_journal import Journal
-from igl_periods.batch_rows import COLUMNS, file_hash
+from igl_periods.batch import cluster as batch_cluster
+from igl_periods.batch.journal import Journal
+from igl_periods.batch.rows import COLUMNS, file_hash
 from igl_periods.cli import main
 from igl_periods.genus_two import igusa_clebsch_invariants
 from igl_periods.surfaces import cyclic_cover
@@ -48,7 +48,8 @@ TETRAHEDRON = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2
 # What the workers of these tests load: files whose name says so kill them, or take their time.
 HABITS = """
 import os, time
-from igl_periods import batch_rows, surface_choice
+from igl_periods import surface_choice
+from igl_periods.batch import rows as batch_rows
 
 def read_surface(path, repair=False):
     if "poison" in str(path):
@@ -120,6 +121,15 @@ def address(cluster):
 
 
 # ---- Rows ----
+
+
+def test_matrices_of_very_high_genus_stay_in_the_marking_of_the_mesh(monkeypatch):
+    monkeypatch.setattr(batch_rows, "SIEGEL_GENUS_LIMIT", 1)
+    (row,) = rows_of(DATA / "lawson_2_1.off")
+    pm = ip.period_matrix(*ip.load_mesh(DATA / "lawson_2_1.off")[:2])
+    assert row["reduced"] is False
+    assert row["matrix_imag"] == pm.matrix.imag.ravel().tolist()
+    assert row["bound"] == pm.bound
 
 
 @pytest.mark.parametrize("name", ["lawson_2_1.off", "klein.json"])

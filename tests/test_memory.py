@@ -1,13 +1,16 @@
 """Runs that would exceed the memory are refused beforehand, with an estimate."""
 
+import json
 import subprocess
 import sys
 
+import igl
 import numpy as np
 import pytest
 
 import igl_periods as ip
 from igl_periods import memory
+from igl_periods.cli import main
 from igl_periods.surfaces import square_tiled_surface, thickened_lattice
 
 LATTICE = thickened_lattice((4, 3, 3), 2, jitter=0.1)
@@ -71,3 +74,15 @@ def test_estimates_grow_with_size_and_genus(handles):
     large = thickened_lattice((2, 2, 2 + handles // 4), 8)
     room = [memory.room_for_forms(ip.DeltaComplex.from_mesh(*mesh), 1e9) for mesh in (small, large)]
     assert room[1] < room[0] < 1e9
+
+
+def test_the_command_line_takes_a_limit(tmp_path, capsys):
+    mesh = tmp_path / "lattice.off"
+    igl.write_triangle_mesh(str(mesh), *LATTICE)
+    assert main(["compute", str(mesh), "--max-memory", "0.001"]) == 1
+    assert "and 0.001 GB are allowed. Simplify the mesh" in capsys.readouterr().err
+    assert main(["compute", str(mesh), "--max-memory", "1", "--json"]) == 0
+    output = capsys.readouterr().out
+    # Of so high a genus on one line.
+    assert output.count("\n") == 1
+    assert json.loads(output)["genus"] == 40

@@ -1,14 +1,4 @@
-"""Many meshes: one row for each of their components, in a Parquet file.
-
-    files ─ workers ▶ rows ─ journal ▶ results.parquet
-
-Files are computed by the processes of a cluster (:mod:`igl_periods.batch_cluster`), which read them
-by their paths.  Rows are kept in a journal beside the output as they arrive
-(:mod:`igl_periods.batch_journal`), so that a run which was interrupted, by whatever, goes on where
-it stopped; when all files have their rows, they are written in the order of the files
-(:mod:`igl_periods.batch_table`).  What a row holds depends on nothing but the file and the options
-(:mod:`igl_periods.batch_rows`), however many workers there are.
-"""
+"""A batch from its files to its table, going on where an earlier run stopped."""
 
 from __future__ import annotations
 
@@ -22,16 +12,10 @@ from pathlib import Path
 from dask.system import CPU_COUNT
 from distributed import Client
 
-from .batch_cluster import BatchError as BatchError
-from .batch_cluster import local_cluster as local_cluster
-from .batch_cluster import outcomes
-from .batch_cluster import remote_cluster as remote_cluster
-from .batch_files import find_files as find_files
-from .batch_journal import Journal
-from .batch_rows import DIED, Row, file_hash, refused_row
-from .batch_rows import BatchOptions as BatchOptions
-from .batch_rows import rows_of as rows_of
-from .batch_table import write_rows
+from .cluster import local_cluster, outcomes
+from .journal import Journal
+from .rows import DIED, BatchOptions, Row, file_hash, refused_row
+from .table import write_rows
 
 
 @dataclass(frozen=True)
@@ -54,6 +38,11 @@ class BatchResult:
     def refused(self) -> list[Row]:
         """The rows with an error."""
         return [row for row in self.rows if row["error"] is not None]
+
+    @property
+    def deadly(self) -> list[str]:
+        """The files on which workers died."""
+        return [row["file"] for row in self.rows if row["error_kind"] == DIED]
 
 
 def run_batch(

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import threading
 
-from .batch_rows import BatchOptions, Row, rows_of
+from .rows import BatchOptions, Row, rows_of
 
 _alone = threading.Lock()
 

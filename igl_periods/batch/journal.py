@@ -19,7 +19,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import IO
 
-from .batch_rows import Row
+from .rows import Row
 
 _HEADER = b'{"igl_periods": "journal of a batch", "schema": 1}\n'
 

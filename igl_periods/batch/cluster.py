@@ -22,8 +22,8 @@ from distributed import Client, Future, KilledWorker, LocalCluster
 from distributed import TimeoutError as DaskTimeoutError
 from distributed.utils import silence_logging_cmgr
 
-from .batch_rows import BatchOptions, Row, refused_row
-from .batch_worker import compute_file
+from .rows import BatchOptions, Row, refused_row
+from .worker import compute_file
 
 Rows = list[Row]
 # The name of a file, and its rows or the number of workers that died on it.

@@ -6,9 +6,9 @@ has a single row.  Nothing but the file and the options decides what a row holds
 ``seconds``; so a table does not depend on who computed which part of it.
 
 Matrices are flat, row by row: Π is ``reshape(matrix_real, (g, g)) + 1j * reshape(matrix_imag,
-(g, g))``, Siegel reduced.  It is known up to the marking only, and two matrices are compared with
-:func:`~igl_periods.equivalence.symplectic_isomorphisms`, not entry by entry.  Invariants of Π do
-not depend on the marking:
+(g, g))``, Siegel reduced unless ``reduced`` is False.  It is known up to the marking only, and two
+matrices are compared with :func:`~igl_periods.equivalence.symplectic_isomorphisms`, not entry by
+entry.  Invariants of Π do not depend on the marking:
 
 * g = 1: Klein's j in ball arithmetic, with a certified radius where Π has a bound;
 * g = 2: the absolute invariants :math:`(I_2^5, I_2^3 I_4, I_2^2 I_6) / I_{10}` of the curve, in
@@ -35,14 +35,15 @@ import flint
 import numpy as np
 from threadpoolctl import ThreadpoolController
 
-from .adaptive import ToleranceWarning
-from .delta_complex import DeltaComplex
-from .genus_two import igusa_clebsch_invariants, rosenhain_roots
-from .invariants import vanishing_even_characteristics
-from .mesh_report import MeshReport
-from .periods import PeriodMatrix
-from .pipeline import as_complex, check_options, period_matrix
-from .surface_choice import components_by_genus, read_surface, surface_of
+from igl_periods.adaptive import ToleranceWarning
+from igl_periods.delta_complex import DeltaComplex
+from igl_periods.genus_two import igusa_clebsch_invariants, rosenhain_roots
+from igl_periods.invariants import vanishing_even_characteristics
+from igl_periods.mesh_report import MeshReport
+from igl_periods.periods import PeriodMatrix
+from igl_periods.pipeline import as_complex, check_options, period_matrix
+from igl_periods.siegel import SIEGEL_GENUS_LIMIT
+from igl_periods.surface_choice import components_by_genus, read_surface, surface_of
 
 Row = dict[str, Any]
 
@@ -54,6 +55,7 @@ COLUMNS: dict[str, Any] = {
     "genus": int,
     "vertices": int,
     "faces": int,
+    "reduced": bool,  # False for a genus above SIEGEL_GENUS_LIMIT: Π in the marking of the mesh
     "matrix_real": list[float],
     "matrix_imag": list[float],
     "bound": float,  # None without a certificate, as is the next one
@@ -218,11 +220,15 @@ def _report_as_json(report: MeshReport, name: str) -> str:
 def _period_columns(K: DeltaComplex, options: BatchOptions) -> Row:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        pm = period_matrix(K, **options.of_period_matrix()).reduced()
+        pm = period_matrix(K, **options.of_period_matrix())
+        reduced = pm.genus <= SIEGEL_GENUS_LIMIT
+        if reduced:
+            pm = pm.reduced()
     told = [str(w.message) for w in caught if issubclass(w.category, ToleranceWarning)]
     bounds = pm.entry_bounds
     return {
         "genus": pm.genus,
+        "reduced": reduced,
         "matrix_real": pm.matrix.real.ravel().tolist(),
         "matrix_imag": pm.matrix.imag.ravel().tolist(),
         "bound": pm.bound,

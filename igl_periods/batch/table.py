@@ -11,7 +11,7 @@ from pathlib import Path
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from .batch_rows import COLUMNS, Row
+from .rows import COLUMNS, Row
 
 _TYPES = {
     str: pa.string(),
