@@ -36,6 +36,7 @@ from igl_periods.batch import (
     run_batch,
 )
 from igl_periods.batch import cluster as batch_cluster
+from igl_periods.batch import rows as batch_rows
 from igl_periods.batch.journal import Journal
 from igl_periods.batch.rows import COLUMNS, file_hash
 from igl_periods.cli import main
@@ -545,7 +546,7 @@ def test_what_has_changed_is_computed_anew(tmp_path, cluster, monkeypatch):
     assert run(files, retry=True).computed == 1
     assert run(files, restart=True).computed == 4
     assert run(files, options=BatchOptions(degree=2)).computed == 4
-    monkeypatch.setattr("igl_periods.batch.version", lambda name: "0.0.0")
+    monkeypatch.setattr("igl_periods.batch.run.version", lambda name: "0.0.0")
     assert run(files, options=BatchOptions(degree=2)).computed == 4
 
 
