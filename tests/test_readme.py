@@ -1,5 +1,6 @@
 """The code blocks of the README run as they stand, in order, in one namespace."""
 
+import importlib
 import re
 from pathlib import Path
 
@@ -22,3 +23,11 @@ def test_code_blocks_run(monkeypatch, capsys):
 def test_commands_of_the_readme_exist(command):
     assert (ROOT / command).stat().st_mode & 0o111
     assert command in (ROOT / "README.md").read_text()
+
+
+def test_tables_are_those_of_the_measurements(monkeypatch):
+    monkeypatch.syspath_prepend(ROOT / "scripts")
+    monkeypatch.setattr("sys.argv", ["readme_tables.py", "--check"])
+    with pytest.raises(SystemExit) as end:
+        importlib.import_module("readme_tables").main()
+    assert end.value.code == 0
