@@ -261,6 +261,8 @@ def walk_cochain(K: DeltaComplex, walk: Ints) -> Ints:
 
 
 def _predecessors(graph: csr_array, root: int) -> Ints:
+    """The node before each one on the way from the root; neighbours are met in their order."""
+    graph.sort_indices()
     return breadth_first_order(graph, root, directed=True, return_predecessors=True)[1]
 
 

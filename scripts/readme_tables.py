@@ -1,7 +1,7 @@
 """Write the tables of the README from the measurements of ``benchmark.py``.
 
-    python scripts/benchmark.py --json data/benchmark.json
-    python scripts/readme_tables.py                  from data/benchmark.json
+    python scripts/benchmark.py --json data/measurements/benchmark.json
+    python scripts/readme_tables.py                  from data/measurements/benchmark.json
     python scripts/readme_tables.py --check
 
 Each table stands between two comments, ``<!-- speed -->`` and ``<!-- /speed -->``; the others are
@@ -92,7 +92,9 @@ def markdown(rows):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("json", type=Path, nargs="?", default=ROOT / "data" / "benchmark.json")
+    parser.add_argument(
+        "json", type=Path, nargs="?", default=ROOT / "data" / "measurements" / "benchmark.json"
+    )
     parser.add_argument("--check", action="store_true", help="write nothing; fail on differences")
     options = parser.parse_args()
     text = before = README.read_text(encoding="utf-8")
