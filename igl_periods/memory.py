@@ -8,7 +8,7 @@ degree, it has about
 entries: the first part is that of planar meshes, whose separators have of the order of √n vertices,
 the second that of handles, which separators have to cut.  Measured on marching cubes surfaces
 (half of it), subdivided surfaces (all of it), thickened lattices and sponges up to genus 1,500
-(between); CHOLMOD takes 11 bytes an entry with its own lists and fronts.
+(between); CHOLMOD takes 12 bytes an entry with its own lists and fronts.
 
 The other parts are the arrays of the complex, 400 bytes a face while edges are flipped and 240
 afterwards, a dozen dense matrices of 2g rows and columns, and the functions of the forms: these
@@ -33,7 +33,7 @@ from .errors import MemoryLimitError
 
 _BYTES_A_FACE_FLIPPING = 400.0
 _BYTES_A_FACE = 240.0
-_BYTES_AN_ENTRY = 11.0
+_BYTES_AN_ENTRY = 12.0
 _DENSE_MATRICES = 12.0
 _FEWEST_COLUMNS = 64
 _CGROUP = Path("/sys/fs/cgroup")
