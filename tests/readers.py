@@ -80,7 +80,12 @@ def _from_text(rest):
     return next_row
 
 
-_TEXT = {"double": float, "float64": float, "float": np.float32, "float32": np.float32}
+def _single(token):
+    with np.errstate(over="ignore"):  # of columns that nobody looks at
+        return np.float32(token)
+
+
+_TEXT = {"double": float, "float64": float, "float": _single, "float32": _single}
 _CODES = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I",
           "float": "f", "double": "d", "int8": "b", "uint8": "B", "int16": "h", "uint16": "H",
           "int32": "i", "uint32": "I", "float32": "f", "float64": "d"}  # fmt: skip

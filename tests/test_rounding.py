@@ -11,7 +11,7 @@ from random_surfaces import L_SHAPE, noisy_torus, random_gluing, random_lengths
 
 import igl_periods as ip
 from igl_periods.delaunay import delaunay_flips
-from igl_periods.rounding import algebraic_allowance, congruence
+from igl_periods.rounding import algebraic_allowance, allowance_for_loss, congruence
 from igl_periods.symplectic import energy_matrix, siegel_point, standard_form, williamson
 from igl_periods.triangles import length_sensitivity
 
@@ -246,3 +246,17 @@ def test_allowance_covers_the_error_of_the_symplectic_mean(seed):
     assert ball_arithmetic.distance_from_the_mean(D, Pi) <= algebraic_allowance(
         np.linalg.cholesky(D)
     )
+
+
+@pytest.mark.parametrize("n", [1, 2, 30])
+@pytest.mark.parametrize("seed", range(4))
+def test_the_loss_counts_with_its_largest_eigenvalue_relative_to_the_energies(n, seed):
+    # Generalised eigenvalues by another route; a single direction, and many equal ones.
+    rng = np.random.default_rng(seed)
+    A, B = rng.normal(size=(2, n, n))
+    D = A @ A.T + np.eye(n)
+    for loss in (1e6 * B @ B.T, 1e9 * np.outer(B[0], B[0]), 1e7 * D):
+        largest = np.abs(np.linalg.eigvals(np.linalg.solve(D, loss))).max()
+        allowance = allowance_for_loss(D, loss) - allowance_for_loss(D, np.zeros((n, n)))
+        unit = 4 * np.finfo(float).eps
+        assert unit * largest * (1 - 1e-9) <= allowance <= 1.6 * unit * largest
