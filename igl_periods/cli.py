@@ -30,6 +30,7 @@ from .cli_surface import (
     read_surfaces,
 )
 from .double import real_structure
+from .errors import ComplexError, NotASiegelPointError
 from .identification import identify
 from .mesh import MeshReport
 from .periods import PeriodMatrix, siegel_reduced
@@ -130,7 +131,7 @@ def _identify(options: argparse.Namespace) -> int:
 def _compute(options: argparse.Namespace) -> int:
     surfaces, report = read_surfaces(options)
     chosen = chosen_options(options) | memory_limit(options)
-    results = [_reduced(period_matrix(K, **chosen), options.reduce) for K in surfaces]
+    results = [reduced_as_wanted(period_matrix(K, **chosen), options.reduce) for K in surfaces]
     if options.json:
         # Large matrices are for programs: hundreds of megabytes if each entry has its own line.
         readable = all(pm.genus <= LARGEST_PRINTED for pm, *_ in results)
@@ -142,14 +143,21 @@ def _compute(options: argparse.Namespace) -> int:
     return 0
 
 
-def _reduced(pm: PeriodMatrix, wanted: bool | None) -> Result:
-    """The matrix and its reduction, if that is wanted, or does not take too long."""
+def reduced_as_wanted(pm: PeriodMatrix, wanted: bool | None) -> Result:
+    """The matrix and its reduction, if that is wanted, or does not take too long.
+
+    A matrix that cannot be reduced in double precision is not lost: a warning says so.
+    """
     if wanted is None:
         wanted = pm.genus <= SIEGEL_GENUS_LIMIT
     if not wanted:
         return pm, None, None
-    with stage("Siegel reduction"):
-        return pm, *siegel_reduced(pm, max_genus=pm.genus)
+    try:
+        with stage("Siegel reduction"):
+            return pm, *siegel_reduced(pm, max_genus=pm.genus)
+    except (ComplexError, NotASiegelPointError) as error:
+        warnings.warn(f"the matrix was not reduced: {error}", stacklevel=2)
+        return pm, None, None
 
 
 def _document(

@@ -56,7 +56,9 @@ def add_batch_command(commands: argparse._SubParsersAction[argparse.ArgumentPars
     )
     again = batch.add_mutually_exclusive_group()
     again.add_argument(
-        "--retry", action="store_true", help="compute files anew that were refused in a former run"
+        "--retry",
+        action="store_true",
+        help="compute files anew that were refused, or missed the tolerance, in a former run",
     )
     again.add_argument("--restart", action="store_true", help="compute all files anew")
     batch.set_defaults(run=_batch)

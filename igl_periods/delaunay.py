@@ -32,6 +32,7 @@ from scipy.sparse import csr_array, vstack
 from .delta_complex import DeltaComplex
 from .errors import ComplexError
 from .gluing import next_corner
+from .stages import progress
 from .triangles import cotangents, double_areas, is_strict, length_sensitivity
 
 Floats = NDArray[np.float64]
@@ -109,6 +110,7 @@ def delaunay_flips(K: DeltaComplex) -> tuple[DeltaComplex, list[Flips]]:
                 f"Delaunay flips did not end in {len(rounds)} rounds: rounding decides about "
                 "extreme triangles. Remesh them, or compute without flips (delaunay=False)."
             )
+        progress("rounds of flips", len(rounds))
         chosen, waiting = mesh.independent(order.permutation(suspects))
         # Neighbours lie close together in memory when edges are taken in their order, and in
         # portions that the cache holds.

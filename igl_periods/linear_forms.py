@@ -18,7 +18,8 @@ A cochain of a tree and a cotree is 0 on nearly all edges.  Its values are kept 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -114,20 +115,39 @@ class LinearForms:
 
 def gram_matrix(forms: LinearForms) -> Floats:
     """Energies of the forms, ∫ ω_i ∧ *ω_j; (k, k) symmetric."""
-    D = np.zeros((forms.n_forms, forms.n_forms))
-    for block in blocks(len(forms.faces.lengths), forms.n_forms):
-        progress("energies on faces", block.start, len(forms.faces.lengths))
+
+    def on_block(block: slice) -> Floats:
         X = forms.gradients(block)
-        D += X.T @ X
-    return D
+        return np.asarray(X.T @ X)
+
+    n = forms.n_forms
+    return _summed(on_block, np.zeros((n, n)), len(forms.faces.lengths), n)
 
 
 def mutual_energies(one: LinearForms, two: LinearForms) -> Floats:
     """Energies ∫ ω_i ∧ *η_j of two families of forms on the same faces; (k, l)."""
-    D = np.zeros((one.n_forms, two.n_forms))
-    for block in blocks(len(one.faces.lengths), max(one.n_forms, two.n_forms)):
-        progress("energies on faces", block.start, len(one.faces.lengths))
-        D += one.gradients(block).T @ two.gradients(block)
+
+    def on_block(block: slice) -> Floats:
+        return np.asarray(one.gradients(block).T @ two.gradients(block))
+
+    n, k = one.n_forms, two.n_forms
+    return _summed(on_block, np.zeros((n, k)), len(one.faces.lengths), max(n, k))
+
+
+def _summed(on_block: Callable[[slice], Floats], D: Floats, n_faces: int, n_forms: int) -> Floats:
+    """The sum of energies over all blocks, added to D in groups.
+
+    The rounding of a sum grows with the number of terms that are added one after the other: with
+    N blocks in groups of √N there are 2 √N of them.
+    """
+    portions = list(blocks(n_faces, n_forms))
+    group = math.isqrt(len(portions)) + 1
+    for start in range(0, len(portions), group):
+        part = np.zeros_like(D)
+        for block in portions[start : start + group]:
+            progress("energies on faces", block.start, n_faces)
+            part += on_block(block)
+        D += part
     return D
 
 

@@ -28,9 +28,11 @@ With d the largest symplectic eigenvalue of D it follows for the symplectic mean
 .. math:: \| Y^{-1/2} (\Pi_{exact} - \Pi) Y^{-1/2} \|_2 \le d - 1, \qquad
           |\Pi_{exact} - \Pi|_{ij} \le (d - 1) \sqrt{Y_{ii} Y_{jj}},
 
-and Im primal ≤ Im Π_exact ≤ Im dual.  This is about the conformal structure of the *polyhedral*
-surface, whose triangles have the stored side lengths; it says nothing about a smooth surface that
-a mesh samples.
+and Im primal ≤ Im Π_exact ≤ Im dual.  If rounding may have changed D by a factor 1 + r, the same
+holds for (1 + r) D, which has the same symplectic mean: then d is replaced by (1 + r) d.
+
+This is about the conformal structure of the *polyhedral* surface, whose triangles have the stored
+side lengths; it says nothing about a smooth surface that a mesh samples.
 
 References
 ----------
@@ -53,7 +55,7 @@ from .errors import ComplexError
 from .half_space import check_symplectic
 from .integer_matrices import product
 from .invariants import to_flint
-from .rounding import LEAST_ALLOWANCE, algebraic_allowance, congruence
+from .rounding import LEAST_ALLOWANCE, algebraic_allowance, combined, congruence
 from .siegel import SIEGEL_GENUS_LIMIT, siegel_reduce
 from .symplectic import (
     cholesky_factor,
@@ -169,12 +171,13 @@ class PeriodMatrix:
             return None
         if self.genus == 0:
             return 0.0
-        return max(float(self.symplectic_eigenvalues[0]) - 1.0, 0.0) + self.rounding_allowance
+        d, r = float(self.symplectic_eigenvalues[0]), self.rounding_allowance
+        return max(d - 1.0, 0.0) + r * max(d, 1.0)
 
     @cached_property
     def rounding_allowance(self) -> float:
         """What the bound contains for floating-point errors, in D and in what follows from it."""
-        return self.rounding + algebraic_allowance(self._factor)
+        return combined(self.rounding, algebraic_allowance(self._factor))
 
     @property
     def entry_bounds(self) -> Floats | None:
@@ -225,7 +228,7 @@ class PeriodMatrix:
             certified=self.certified,
             cocycles=csr_array(csr_array(U) @ self.cocycles),
             complex=self.complex,
-            rounding=self.rounding + loss,
+            rounding=combined(self.rounding, loss),
         )
 
     def to_flint(self) -> flint.acb_mat:

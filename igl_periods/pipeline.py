@@ -29,11 +29,14 @@ from .high_order import high_order_forms, separate_cones
 from .homology import cochains_and_basis
 from .memory import check_faces, check_high_order, room_for_forms
 from .periods import PeriodMatrix
-from .rounding import LEAST_ALLOWANCE, congruence
+from .rounding import LEAST_ALLOWANCE, combined, congruence
 from .stages import stage
 from .validation import check_equal_when_glued, checked_array
 
 Floats = NDArray[np.float64]
+
+# Where rounding may change energies by more, relative to them, nothing is known of the matrix.
+_LARGEST_ROUNDING = 1.0
 
 _LARGEST_WEIGHT = 1e100
 
@@ -217,12 +220,19 @@ def certified_period_matrix(
 ) -> PeriodMatrix:
     """The period matrix in the canonical basis T c, from energies in the classes c."""
     D, loss = congruence(T, raw)
+    rounding = combined(allowance, loss)
+    if rounding > _LARGEST_ROUNDING:
+        raise ComplexError(
+            f"rounding may change the energies of the forms by a factor {1 + rounding:.3g}: the "
+            "triangles are too extreme for double precision. Remesh them; with delaunay=False "
+            "(--no-delaunay) let edges be flipped."
+        )
     return PeriodMatrix(
         dirichlet=D,
         certified=True,
         cocycles=_combined(T, cochains),
         complex=K,
-        rounding=max(LEAST_ALLOWANCE, allowance + loss),
+        rounding=max(LEAST_ALLOWANCE, rounding),
     )
 
 

@@ -23,9 +23,11 @@ with D as a matrix, instead of taking the worst s.
 .. math:: |\xi^T E\, \xi| \le \Big( \sum_i t_i |\xi_i| \Big)^2 \le t^T |D^{-1}|\, t \; \xi^T D\, \xi
 
 (write the sum as :math:`(D^{-1/2} \sigma t)^T (D^{1/2} \xi)` with σ the signs of ξ).  The Gram
-matrix is accurate to a few ulps of :math:`\sqrt{D_{ii} D_{jj}}` in the basis in which it is
-computed, so t is the root of its diagonal there.  A relative error in this sense is the same in
-every basis: a change of basis U D Uᵀ adds only what rounding does to that product.
+matrix is taken to be accurate to a few ulps of :math:`\sqrt{D_{ii} D_{jj}}` in the basis in which
+it is computed, so t is the root of its diagonal there.  (That is a rule, not a proof of every
+rounding: sums over faces are formed in groups, so that few terms are added one after the other.)  A
+relative error in this sense is the same in every basis: a change of basis U D Uᵀ adds only what
+rounding does to that product.
 """
 
 from __future__ import annotations
@@ -114,6 +116,11 @@ def _largest_eigenvalue(W: Floats) -> float:
     return row_sum
 
 
+def combined(one: float, other: float) -> float:
+    """Two relative errors one after the other: (1 + r₁)(1 + r₂) − 1."""
+    return one + other + one * other
+
+
 def congruence(U: NDArray[np.integer], D: Floats) -> tuple[Floats, float]:
     """U D Uᵀ, and the relative error of the result that rounding in D and after it can cause.
 
@@ -130,8 +137,9 @@ def congruence(U: NDArray[np.integer], D: Floats) -> tuple[Floats, float]:
     changed = 0.5 * (changed + changed.T)
     inverse = _absolute_inverse(cholesky_factor(changed))
     terms = int(np.count_nonzero(A, axis=1).max())
-    # The sum is rounded once; the second product has so many terms, none above unit / 2.
-    rounded = _amplified(inverse, np.sqrt(np.diag(changed)))
+    # The sum is rounded once, and again where it is made symmetric; the second product has so many
+    # terms, none above unit / 2.
+    rounded = 2 * _amplified(inverse, np.sqrt(np.diag(changed)))
     rounded += terms * unit * _amplified(inverse, sums)
     given = _amplified(_absolute_inverse(cholesky_factor(D)), np.sqrt(np.diag(D)))
     return changed, _ERROR * given + _ULP * rounded

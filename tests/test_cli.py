@@ -15,6 +15,7 @@ from matching import mobius
 from random_surfaces import noisy_torus, torus_of_revolution
 
 import igl_periods as ip
+from igl_periods import cli
 from igl_periods.cli import _parser, main
 from igl_periods.cli_pictures import _reduced
 from igl_periods.symplectic import standard_form
@@ -300,3 +301,14 @@ def test_gluings_that_are_refused(tmp_path, capsys, content, message):
     path.write_text(content)
     assert main(["compute", str(path)]) == 1
     assert message in capsys.readouterr().err
+
+
+def test_a_matrix_that_cannot_be_reduced_is_not_lost(monkeypatch, capsys):
+    def refuse(pm, max_genus):
+        raise ip.ComplexError("too extreme for double precision")
+
+    monkeypatch.setattr(cli, "siegel_reduced", refuse)
+    assert cli.main(["compute", str(DATA / "lawson_2_1.off")]) == 0
+    output = capsys.readouterr()
+    assert "in the marking of the mesh, not Siegel reduced" in output.out
+    assert "warning: the matrix was not reduced: too extreme for double precision" in output.err

@@ -2,13 +2,14 @@
 
 import itertools
 import tracemalloc
+from fractions import Fraction
 
 import numpy as np
 import pytest
 from random_surfaces import BOLZA, noisy_torus, random_gluing, random_lengths
 
 import igl_periods as ip
-from igl_periods import harmonic_energies
+from igl_periods import harmonic_energies, linear_forms
 from igl_periods.delaunay import intrinsic_delaunay
 from igl_periods.delta_complex import cotan_weights
 from igl_periods.harmonic import dirichlet_matrix, factorised, harmonic_potentials
@@ -131,3 +132,17 @@ def test_blocks_of_harmonic_forms_are_their_rows():
     np.testing.assert_allclose(np.concatenate(blocks), whole, rtol=0, atol=1e-12)
     with pytest.raises(ValueError, match="rows = 0: a block has 1 row at least"):
         ip.harmonic_form_blocks(K, rows=0)
+
+
+def test_sums_over_many_blocks_lose_few_digits():
+    # Equal terms, whose sum one after the other errs in one direction; against fractions.
+    n_blocks, ulp = 10_000, np.finfo(float).eps / 2
+    n_faces = 512 * n_blocks
+    terms = np.array([[0.1, 1 / 3], [0.7, 1e-5 / 3]])
+    total = linear_forms._summed(lambda block: terms, np.zeros((2, 2)), n_faces, 1_000_000)
+    exact = [n_blocks * Fraction(value) for value in terms.ravel().tolist()]
+    errors = [abs(Fraction(float(t)) / e - 1) for t, e in zip(total.ravel(), exact)]
+    one_by_one = [
+        abs(Fraction(float(t)) / e - 1) for t, e in zip(sum([terms] * n_blocks).ravel(), exact)
+    ]
+    assert max(errors) < 2 * n_blocks**0.5 * ulp < max(one_by_one)

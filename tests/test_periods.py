@@ -563,3 +563,24 @@ def test_lengths_suffice():
     K = ip.DeltaComplex.from_gluing(random_lengths(twin, rng), twin)
     assert K.positions is None
     assert ip.period_matrix(K.components()[0]).certified
+
+
+def test_the_bound_takes_rounding_and_discretisation_together():
+    # D may be too small by 1 + r: of all surfaces with D_exact ≤ (1 + r) D the one with the
+    # largest error has d (1 + r) where D has d.
+    d, r = 3.0, 0.05
+    K = ip.DeltaComplex.from_squares([((0, 0), (0, 2)), ((0, 1), (0, 3))])
+    pm = ip.PeriodMatrix(d * np.eye(2), True, ip.cohomology_basis(K), K, r)
+    exact = np.diag([d * (1 + r), 1 / (d * (1 + r))])
+    Pi = 1j / exact[1, 1]
+    error = abs(Pi - pm.matrix[0, 0]) / pm.matrix[0, 0].imag
+    assert error <= pm.bound <= error * (1 + 1e-12)
+
+
+def test_energies_that_rounding_could_double_are_refused():
+    K = ip.DeltaComplex.from_gluing(
+        [[9.356351770539189e-38, 3.994167267331267e-30, 3.994167181555089e-30]] * 2,
+        [[3, 4, 5], [0, 1, 2]],
+    )
+    with pytest.raises(ip.ComplexError, match=r"energies of the forms by a factor \d.*too extreme"):
+        ip.period_matrix(K, delaunay=False)

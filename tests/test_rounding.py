@@ -203,8 +203,8 @@ def test_the_loss_is_the_same_in_every_basis():
     sheared, loss = congruence(shear, D)
     t = np.abs(shear) @ np.sqrt(np.diag(D))
     in_the_new_basis = t @ np.abs(np.linalg.inv(sheared)) @ t
-    assert loss > kept
-    assert loss < 0.1 * np.finfo(float).eps * 4 * in_the_new_basis
+    # There only the product counts, which is rounded twice: two of the eight ulps of entries of D.
+    assert kept < loss <= kept + 2 * np.finfo(float).eps / 2 * in_the_new_basis
 
 
 @pytest.mark.parametrize("n", [2, 8, 60])

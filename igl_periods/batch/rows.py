@@ -3,7 +3,8 @@ r"""What one file becomes in a table of many: a row for each component, or a row
 Every surface has its row, also one that is refused: then ``error`` says why, ``error_kind`` is the
 name of the exception, and what could not be computed is None.  A file that cannot be read at all
 has a single row.  Nothing but the file and the options decides what a row holds, except for
-``seconds``; so a table does not depend on who computed which part of it.
+``seconds``, as long as there is enough memory; so a table does not depend on who computed which
+part of it.
 
 Matrices are flat, row by row: Π is ``reshape(matrix_real, (g, g)) + 1j * reshape(matrix_imag,
 (g, g))``, Siegel reduced unless ``reduced`` is False.  It is known up to the marking only, and two
@@ -37,6 +38,7 @@ from threadpoolctl import ThreadpoolController
 
 from igl_periods.adaptive import ToleranceWarning
 from igl_periods.delta_complex import DeltaComplex
+from igl_periods.errors import ComplexError, NotASiegelPointError
 from igl_periods.genus_two import igusa_clebsch_invariants, rosenhain_roots
 from igl_periods.invariants import vanishing_even_characteristics
 from igl_periods.mesh_report import MeshReport
@@ -55,7 +57,7 @@ COLUMNS: dict[str, Any] = {
     "genus": int,
     "vertices": int,
     "faces": int,
-    "reduced": bool,  # False for a genus above SIEGEL_GENUS_LIMIT: Π in the marking of the mesh
+    "reduced": bool,  # False above SIEGEL_GENUS_LIMIT, or beyond double precision: mesh marking
     "matrix_real": list[float],
     "matrix_imag": list[float],
     "bound": float,  # None without a certificate, as is the next one
@@ -221,9 +223,7 @@ def _period_columns(K: DeltaComplex, options: BatchOptions) -> Row:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         pm = period_matrix(K, **options.of_period_matrix())
-        reduced = pm.genus <= SIEGEL_GENUS_LIMIT
-        if reduced:
-            pm = pm.reduced()
+    pm, reduced = _reduced(pm)
     told = [str(w.message) for w in caught if issubclass(w.category, ToleranceWarning)]
     bounds = pm.entry_bounds
     return {
@@ -237,6 +237,16 @@ def _period_columns(K: DeltaComplex, options: BatchOptions) -> Row:
         "warning": " ".join(told) or None,
         **_invariants(pm),
     }
+
+
+def _reduced(pm: PeriodMatrix) -> tuple[PeriodMatrix, bool]:
+    """The reduced matrix, or the given one if its genus or its extremes are too large for that."""
+    if pm.genus > SIEGEL_GENUS_LIMIT:
+        return pm, False
+    try:
+        return pm.reduced(), True
+    except (ComplexError, NotASiegelPointError):
+        return pm, False
 
 
 def _invariants(pm: PeriodMatrix) -> Row:

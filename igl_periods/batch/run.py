@@ -77,7 +77,7 @@ def run_batch(
     restart : bool
         Forget the journal.
     retry : bool
-        Compute files anew that have a row with an error.
+        Compute files anew that have a row with an error or a warning: memory may have been short.
     progress : callable, optional
         Called as ``progress(done, refused, total)``, which count files.
 
@@ -136,7 +136,7 @@ def _silent(done: int, refused: int, total: int) -> None:
 
 def _is_current(rows: list[Row], path: Path, options: BatchOptions, retry: bool) -> bool:
     """Whether the rows of a file are what would be computed now."""
-    if retry and _is_refused(rows):
+    if retry and (_is_refused(rows) or any(row["warning"] is not None for row in rows)):
         return False
     first = rows[0]
     if (first["options"], first["version"]) != (options.as_json(), version("igl_periods")):

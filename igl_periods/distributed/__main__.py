@@ -13,10 +13,10 @@ import traceback
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from igl_periods.cli import show_stages
+from igl_periods.cli import reduced_as_wanted, show_stages
 from igl_periods.cli_surface import add_surface_arguments, read_surfaces
 from igl_periods.mesh import MeshReport
-from igl_periods.periods import PeriodMatrix, siegel_reduced
+from igl_periods.periods import PeriodMatrix
 from igl_periods.serialization import SCHEMA, result_to_json
 from igl_periods.summary import summary
 
@@ -101,7 +101,7 @@ def _compute(comm: Intracomm, options: argparse.Namespace) -> int:
 
 
 def _printed(options: argparse.Namespace, pm: PeriodMatrix, report: MeshReport | None) -> str:
-    result = (pm, *siegel_reduced(pm))
+    result = reduced_as_wanted(pm, None)
     if not options.json:
         return f"{report or options.mesh}\n{summary(*result)}"
     names = ("repair", "double", "component", "delaunay", "rtol")

@@ -40,7 +40,7 @@ from igl_periods.delta_complex import cotan_weights
 from igl_periods.harmonic import edge_ends, laplacian, outflow
 from igl_periods.stages import logger, stage
 
-from .collective import on_every_rank
+from .collective import on_every_rank, on_root
 from .libraries import load_petsc
 from .partition import Part
 
@@ -101,8 +101,9 @@ def harmonic_potentials(comm: Intracomm, part: Part, rtol: float, max_iterations
             f.ghostUpdate(petsc.InsertMode.INSERT, petsc.ScatterMode.FORWARD)
             with f.localForm() as local:
                 potentials[:, j] = local.array
-    if unsolved and comm.rank == 0:
-        _warn(unsolved, k, rtol, max_iterations)
+    if unsolved:
+        # A filter of warnings may make it an error, which has to be everyone's.
+        on_root(comm, lambda: _warn(unsolved, k, rtol, max_iterations))
     return potentials
 
 
@@ -157,5 +158,5 @@ def _warn(n_unsolved: int, k: int, rtol: float, max_iterations: int) -> None:
         "iterations at most. The bound is true all the same, only larger. Allow more iterations "
         "(max_iterations), or look for extreme triangles (mesh_quality).",
         ToleranceWarning,
-        stacklevel=4,
+        stacklevel=6,
     )
