@@ -21,8 +21,10 @@ memory than there is gets killed without a word.
 from __future__ import annotations
 
 import ctypes
+import re
 import resource
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -37,26 +39,50 @@ _BYTES_AN_ENTRY = 12.0
 _DENSE_MATRICES = 12.0
 _FEWEST_COLUMNS = 64
 _CGROUP = Path("/sys/fs/cgroup")
+_MEMBERSHIP = Path("/proc/self/cgroup")
 
 
 def available_memory() -> float:
     """Bytes that this process can still take: of the machine, its control group and its limit."""
-    room = [float(psutil.virtual_memory().available)]
-    limit, used = (_number(_CGROUP / f"memory.{name}") for name in ("max", "current"))
-    if limit is not None and used is not None:
-        room.append(limit - used)
+    room = [float(psutil.virtual_memory().available), *_control_groups()]
     soft, _ = resource.getrlimit(resource.RLIMIT_AS)
     if soft != resource.RLIM_INFINITY:
         room.append(float(soft - psutil.Process().memory_info().vms))
     return max(min(room), 0.0)
 
 
-def _number(path: Path) -> float | None:
-    """The number in a file, or None where there is no file or no number ("max")."""
+def _control_groups() -> Iterator[float]:
+    """What is left of the limit of each control group that this process is in, outermost last.
+
+    Containers, services and batch systems set such limits (Linux, versions 1 and 2).  Pages of
+    files that nobody uses count as used there, and are given back when memory is short.
+    """
+    for line in _text(_MEMBERSHIP).splitlines():
+        _, controllers, path = line.split(":", 2)
+        if controllers == "":
+            root, limit, used = _CGROUP, "memory.max", "memory.current"
+        elif "memory" in controllers.split(","):
+            root, limit, used = _CGROUP / "memory", "memory.limit_in_bytes", "memory.usage_in_bytes"
+        else:
+            continue
+        group = root / path.lstrip("/")
+        # A container may see its own group as the root, under the path that it has outside.
+        for folder in (group, *group.parents):
+            if not folder.is_relative_to(root):
+                break
+            most, taken = _text(folder / limit), _text(folder / used)
+            if most.strip().isdigit() and taken.strip().isdigit():
+                statistics = _text(folder / "memory.stat")
+                idle = re.findall(r"^(?:total_)?inactive_file (\d+)$", statistics, re.MULTILINE)
+                yield float(most) - float(taken) + max(map(float, idle), default=0.0)
+
+
+def _text(path: Path) -> str:
+    """The content of a file, empty where it cannot be read."""
     try:
-        return float(path.read_text())
-    except (OSError, ValueError):
-        return None
+        return path.read_text()
+    except OSError:
+        return ""
 
 
 def room_for_forms(K: DeltaComplex, limit: float | None = None) -> float:

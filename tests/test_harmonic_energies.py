@@ -141,8 +141,8 @@ def test_sums_over_many_blocks_lose_few_digits():
     terms = np.array([[0.1, 1 / 3], [0.7, 1e-5 / 3]])
     total = linear_forms._summed(lambda block: terms, np.zeros((2, 2)), n_faces, 1_000_000)
     exact = [n_blocks * Fraction(value) for value in terms.ravel().tolist()]
-    errors = [abs(Fraction(float(t)) / e - 1) for t, e in zip(total.ravel(), exact)]
-    one_by_one = [
-        abs(Fraction(float(t)) / e - 1) for t, e in zip(sum([terms] * n_blocks).ravel(), exact)
-    ]
-    assert max(errors) < 2 * n_blocks**0.5 * ulp < max(one_by_one)
+
+    def error(sums):
+        return max(abs(Fraction(float(t)) / e - 1) for t, e in zip(sums.ravel(), exact))
+
+    assert error(total) < 2 * n_blocks**0.5 * ulp < error(sum([terms] * n_blocks))

@@ -86,3 +86,28 @@ def test_the_command_line_takes_a_limit(tmp_path, capsys):
     # Of so high a genus on one line.
     assert output.count("\n") == 1
     assert len(json.loads(output)["reduced_marking"]["matrix"]["real"]) == 40
+
+
+@pytest.mark.parametrize(
+    ("membership", "folder", "names"),
+    [
+        ("0::/user.slice/job_7", "", ("memory.max", "memory.current")),
+        ("4:memory:/job_7\n3:cpu:/x", "memory", ("memory.limit_in_bytes", "memory.usage_in_bytes")),
+    ],
+)
+def test_limits_of_control_groups_count(monkeypatch, tmp_path, membership, folder, names):
+    # The group has no limit, the one around it has: 4000 of 10000 bytes are left, 500 of files.
+    job = tmp_path / folder / membership.splitlines()[0].split(":")[2].lstrip("/")
+    job.mkdir(parents=True)
+    around = job.parent
+    (tmp_path / "cgroup").write_text(membership + "\n")
+    (around / names[0]).write_text("10000\n")
+    (around / names[1]).write_text("6000\n")
+    (around / "memory.stat").write_text("anon 5000\ninactive_file 500\n")
+    (job / names[0]).write_text("max\n")
+    (job / names[1]).write_text("5500\n")
+    monkeypatch.setattr(memory, "_MEMBERSHIP", tmp_path / "cgroup")
+    monkeypatch.setattr(memory, "_CGROUP", tmp_path)
+    assert memory.available_memory() == 4500
+    monkeypatch.setattr(memory, "_MEMBERSHIP", tmp_path / "none")
+    assert memory.available_memory() > 1e6
