@@ -11,8 +11,9 @@ the second that of handles, which separators have to cut.  Measured on marching 
 (between); CHOLMOD takes 12 bytes an entry with its own lists and fronts.
 
 The other parts are the arrays of the complex, 400 bytes a face while edges are flipped and 240
-afterwards, a dozen dense matrices of 2g rows and columns, and the functions of the forms: these
-are held in panels (:mod:`igl_periods.harmonic_energies`), and take what is left.
+afterwards, a dozen dense matrices of 2g rows and columns, the gradients on a block of faces, 5,000
+numbers a form, and the functions of the forms: these are held in panels
+(:mod:`igl_periods.harmonic_energies`), and take what is left.
 
 Estimates are there to refuse what cannot work before it is begun, since a process that takes more
 memory than there is gets killed without a word.
@@ -37,6 +38,7 @@ _BYTES_A_FACE_FLIPPING = 400.0
 _BYTES_A_FACE = 240.0
 _BYTES_AN_ENTRY = 12.0
 _DENSE_MATRICES = 12.0
+_GRADIENTS_A_FORM = 5_000.0
 _FEWEST_COLUMNS = 64
 _CGROUP = Path("/sys/fs/cgroup")
 _MEMBERSHIP = Path("/proc/self/cgroup")
@@ -104,7 +106,7 @@ def room_for_forms(K: DeltaComplex, limit: float | None = None) -> float:
     handles = 4.0 * np.sqrt(max(rank, 0) / 2)
     factor = _BYTES_AN_ENTRY * n * (6.0 * np.log2(n + 1) + handles)
     needed = max(_BYTES_A_FACE_FLIPPING * m, _BYTES_A_FACE * m + factor)
-    needed += _DENSE_MATRICES * 8.0 * rank**2
+    needed += 8.0 * (_DENSE_MATRICES * rank**2 + _GRADIENTS_A_FORM * max(rank, 0))
     what = f"harmonic forms on {n:,} vertices with {rank:,} cohomology classes take"
     allowed = _checked(needed + 8.0 * n * np.clip(rank, 0, _FEWEST_COLUMNS), what, limit)
     return allowed - needed
