@@ -722,6 +722,8 @@ def test_interrupted_from_the_keyboard(tmp_path, habits):
         tmp_path / "m", "-o", output, "--workers", 2,
         env={**os.environ, "DASK_DISTRIBUTED__WORKER__PRELOAD": str(habits)},
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
+        # Whoever runs the tests in the background may have it ignored, and that is inherited.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )  # fmt: skip
     wait_for_lines(journal, 4)
     # As a terminal does: to every process of the group.
