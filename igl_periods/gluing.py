@@ -49,8 +49,7 @@ def twins_of_faces(faces: Ints, labels: Ints) -> tuple[Ints, Bools]:
     MeshError
         If an edge has more than two faces.
     """
-    # Indices of 32 bits, where they do, halve the memory traffic of the sort.
-    small = faces.astype(np.int32 if faces.size < np.iinfo(np.int32).max else np.int64)
+    small = faces.astype(index_type(faces.size))
     tail, head = np.roll(small, -1, 1).ravel(), np.roll(small, 1, 1).ravel()
     low, high = np.minimum(tail, head), np.maximum(tail, head)
     order = _sorted_by(high, labels.size)
@@ -69,6 +68,11 @@ def twins_of_faces(faces: Ints, labels: Ints) -> tuple[Ints, Bools]:
     same = np.zeros(tail.size, dtype=bool)
     same[one] = same[other] = tail[one] == tail[other]
     return twin.reshape(-1, 3), same.reshape(-1, 3)
+
+
+def index_type(largest: int) -> type[np.signedinteger[Any]]:
+    """The type of indices up to ``largest``: 32 bits, where they do, halve the memory traffic."""
+    return np.int32 if largest < np.iinfo(np.int32).max else np.int64
 
 
 def _sorted_by(keys: NDArray[np.signedinteger[Any]], n: int) -> NDArray[np.signedinteger[Any]]:

@@ -35,7 +35,7 @@ from sksparse.cholmod import CholmodNotPositiveDefiniteError, Factor, analyze
 
 from .delta_complex import DeltaComplex
 from .errors import ComplexError
-from .gluing import next_corner
+from .gluing import index_type, next_corner
 from .linear_forms import Jumps, LinearForms, WeightedFaces, blocks, gram_matrix
 from .memory import release_freed_memory
 from .stages import progress
@@ -93,7 +93,7 @@ def harmonic_potentials(K: DeltaComplex, weights: Floats, cochains: csr_array) -
     """
     tail, head = edge_ends(K)
     sources = outflow(K.n_vertices, tail, head, weights, cochains)
-    return solutions(factored_laplacian(K, weights), sources)
+    return solutions(factored_laplacian(K, weights) if cochains.shape[0] else None, sources)
 
 
 def solutions(factor: Factor | None, sources: csc_array) -> Floats:
@@ -218,7 +218,7 @@ def lower_laplacian(n: int, tail: Ints, head: Ints, weights: Floats, first: int)
     if first > 0:
         inner = low >= first
         low, high, weights = low[inner], high[inner], weights[inner]
-    index = np.int32 if n < np.iinfo(np.int32).max else np.int64
+    index = index_type(n)
     all_vertices = np.arange(first, n, dtype=index)
     rows = np.concatenate([high.astype(index), all_vertices]) - first
     columns = np.concatenate([low.astype(index), all_vertices]) - first

@@ -69,7 +69,8 @@ class HarmonicProblem:
 def harmonic_problem(K: DeltaComplex, cochains: csr_array) -> tuple[csc_matrix, HarmonicProblem]:
     """The grounded Laplacian of a surface, and the problem of closed (k, n_edges) cochains on it.
 
-    Together they are all that is needed of the surface, and neither refers to it.
+    Together they are all that is needed of the surface, and neither refers to it.  On a sphere
+    there are no cochains, hence nothing to solve: the Laplacian is empty.
     """
     rho, (tail, head) = cotan_weights(K), edge_ends(K)
     sensitivity = extreme_sensitivity(K)
@@ -80,6 +81,8 @@ def harmonic_problem(K: DeltaComplex, cochains: csr_array) -> tuple[csc_matrix, 
         jumps=Jumps.of(K, cochains),
         extreme_jumps=Jumps.of(K, cochains, sensitivity),
     )
+    if cochains.shape[0] == 0:
+        return csc_matrix((0, 0)), problem
     return lower_laplacian(K.n_vertices, tail, head, rho, 1), problem
 
 

@@ -37,6 +37,7 @@ from scipy.sparse.csgraph import breadth_first_order
 
 from .delta_complex import DeltaComplex, check_closed_and_oriented, check_connected
 from .errors import ComplexError
+from .gluing import index_type
 from .symplectic import integer_symplectic_basis, standard_form
 
 Ints = NDArray[np.int64]
@@ -73,8 +74,7 @@ def tree_cotree(K: DeltaComplex, root: int = 0) -> TreeCotree:
     """
     if not 0 <= root < K.n_vertices:
         raise ValueError(f"root = {root} is no vertex: there are {K.n_vertices}, counted from 0.")
-    # Of 32 bits where they do: time goes into moving indices about.
-    index = np.int32 if 3 * K.n_faces < np.iinfo(np.int32).max else np.int64
+    index = index_type(3 * K.n_faces)
     half_edge = np.arange(3 * K.n_faces + 1, dtype=index)
     tail, head = (end.astype(index) for end in half_edge_ends(K))
     ones = np.ones(tail.size)

@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from .delta_complex import DeltaComplex
+from .gluing import index_type
 from .stages import progress
 from .triangles import double_areas
 
@@ -59,7 +60,7 @@ class WeightedFaces:
     @classmethod
     def of(cls, K: DeltaComplex, weights: Floats | None = None) -> WeightedFaces:
         """All faces, or those of positive weight; weights (m,)."""
-        index = np.int32 if K.n_vertices < np.iinfo(np.int32).max else np.int64
+        index = index_type(K.n_vertices)
         if weights is None:
             return cls(K.lengths, K.corner_vertex.astype(index))
         faces = np.flatnonzero(weights)

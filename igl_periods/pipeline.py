@@ -124,7 +124,7 @@ def period_matrix(
         return period_matrix_within(where, certify, tolerance, max_unknowns, max_memory)
     if degree > 1:
         separated = separate_cones(*_triangulated(K, cochains, delaunay))
-        check_high_order(separated[0], degree, 2 * K.genus, max_memory)
+        check_high_order(separated[0], degree, cochains.shape[0], max_memory)
         return certify(*_high_order(*separated, degree))
     # Nothing keeps the flipped complex while its Laplacian is factored, nor this one afterwards:
     # the factor takes the memory of all of them.
