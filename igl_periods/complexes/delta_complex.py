@@ -33,6 +33,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import igl
 import numpy as np
@@ -60,8 +61,12 @@ from .gluings import (
     reversing_sides,
     twins_of_faces,
 )
+from .mesh_readers import vertices_and_faces
 from .surface_checks import check_surface
 from .triangles import mollify
+
+if TYPE_CHECKING:
+    from .surface_arguments import SurfaceLike
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -121,13 +126,14 @@ class DeltaComplex:
         )
 
     @classmethod
-    def from_mesh(cls, V: ArrayLike, F: ArrayLike) -> DeltaComplex:
+    def from_mesh(cls, V: SurfaceLike | ArrayLike, F: ArrayLike | None = None) -> DeltaComplex:
         """Make the polyhedral surface of a triangle mesh.
 
         Parameters
         ----------
         V : (n, d) array-like
-            Vertex positions in R^d, d ≥ 2.
+            Vertex positions in R^d, d ≥ 2; or, without F, one object that is a mesh
+            (:func:`~igl_periods.complexes.as_complex`).
         F : (m, 3) array-like of int
             Corners of each triangle, as rows of ``V``.  Two faces are glued where they share two
             corners.
@@ -141,8 +147,11 @@ class DeltaComplex:
         ComplexError
             If a triangle is degenerate beyond what mollification mends.
         """
-        positions = checked_positions(V)
-        faces = checked_faces(F, len(positions))
+        mesh = V if isinstance(V, DeltaComplex) else vertices_and_faces(V, F)
+        if isinstance(mesh, DeltaComplex):
+            return mesh
+        positions = checked_positions(mesh[0])
+        faces = checked_faces(mesh[1], len(positions))
         check_finite(positions, faces)
         lengths = igl.edge_lengths(positions, faces)
         return _from_simplicial(lengths, faces, positions)

@@ -29,6 +29,7 @@ from igl_periods.errors import ComplexError
 from .delta_complex import DeltaComplex
 from .gluings import reversing_sides
 from .half_edges import forward_half_edges
+from .surface_arguments import of_a_surface
 
 # Corner (and side) c of a face is corner (and side) _MIRROR[c] of its copy.
 _MIRROR = np.array([0, 2, 1])
@@ -63,13 +64,15 @@ class Involution:
         return csr_array(cochains @ matrix)
 
 
+@of_a_surface
 def double(K: DeltaComplex) -> DeltaComplex:
     """The complex double of a surface: closed, oriented, with an orientation-reversing isometry.
 
     Parameters
     ----------
-    K : DeltaComplex
-        With or without boundary, orientable or not, oriented consistently or not.
+    K : surface
+        As for :func:`~igl_periods.period_matrix`, with or without boundary, orientable
+        or not, oriented consistently or not.
 
     Returns
     -------

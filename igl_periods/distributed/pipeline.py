@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
 from igl_periods.arrays import Floats
-from igl_periods.complexes import DeltaComplex, intrinsic_delaunay
+from igl_periods.complexes import DeltaComplex, as_complex, intrinsic_delaunay
 from igl_periods.harmonic import allowance_for_loss, dirichlet_matrix, extreme_sensitivity
-from igl_periods.periods import PeriodMatrix, as_complex, certified_period_matrix
+from igl_periods.periods import PeriodMatrix, certified_period_matrix
 from igl_periods.run_log import stage
 from igl_periods.topology import cochains_and_basis
 

@@ -53,6 +53,7 @@ from igl_periods.complexes import (
     cotangents,
     forward_half_edges,
     next_corner,
+    of_a_surface,
 )
 from igl_periods.errors import ComplexError
 
@@ -103,13 +104,15 @@ class DoubleGraph:
         return int(self.polygon.max()) + 1
 
 
+@of_a_surface
 def double_graph(K: DeltaComplex, weights: ArrayLike | None = None) -> DoubleGraph:
     """The double graph of a Delaunay triangulation, or of abstract weights.
 
     Parameters
     ----------
-    K : DeltaComplex
-        Closed, oriented, connected; Delaunay unless weights are given.
+    K : surface
+        As for :func:`~igl_periods.period_matrix`: closed, oriented, connected; Delaunay
+        unless weights are given.
     weights : (n_edges,) array-like, optional
         ρ ≥ 0; the intrinsic cotangent weights of ``K`` where they are not given.
 

@@ -34,6 +34,7 @@ from igl_periods.complexes import (
     cotan_weights,
     insert_barycentres,
     intrinsic_delaunay,
+    of_a_surface,
     split,
 )
 from igl_periods.harmonic import (
@@ -74,6 +75,7 @@ class Refined:
     steps: tuple[tuple[int, float], ...]
 
 
+@of_a_surface
 def refined_period_matrix(
     K: DeltaComplex, bound: float, *, largest: int = 200_000, local: bool = True
 ) -> Refined:
@@ -81,8 +83,8 @@ def refined_period_matrix(
 
     Parameters
     ----------
-    K : DeltaComplex
-        Closed, oriented, connected.
+    K : surface
+        As for :func:`~igl_periods.period_matrix`: closed, oriented, connected.
     bound : float
         The wanted bound, > 0.
     largest : int

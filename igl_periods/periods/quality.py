@@ -25,6 +25,7 @@ from igl_periods.complexes import (
     cone_angles,
     cotan_weights,
     delaunay_flips,
+    of_a_surface,
     transport,
 )
 from igl_periods.harmonic import (
@@ -102,13 +103,14 @@ class MeshQuality:
         return 1 + int(np.searchsorted(held, 0.5 * held[-1]))
 
 
+@of_a_surface
 def mesh_quality(K: DeltaComplex) -> MeshQuality:
     """Measure what decides about the accuracy of the period matrix.
 
     Parameters
     ----------
-    K : DeltaComplex
-        Closed, oriented, connected.
+    K : surface
+        As for :func:`~igl_periods.period_matrix`: closed, oriented, connected.
 
     Raises
     ------

@@ -38,7 +38,7 @@ from .subdivision import subdivide
 from .cube_solids import menger_sponge, thickened_lattice
 from .voxels import voxel_surface
 from .named_surfaces import catalogue
-from .identification import Identification, identify
+from .identification import Identification, identify, matrix_of
 
 __all__ = [
     "glued_rectangles",
@@ -72,4 +72,5 @@ __all__ = [
     "catalogue",
     "Identification",
     "identify",
+    "matrix_of",
 ]

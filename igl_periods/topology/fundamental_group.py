@@ -39,7 +39,7 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import breadth_first_order
 
 from igl_periods.arrays import Ints
-from igl_periods.complexes import DeltaComplex, check_surface, next_corner
+from igl_periods.complexes import DeltaComplex, check_surface, next_corner, of_a_surface
 from igl_periods.errors import ComplexError
 
 from .cycles import rooted_loops
@@ -63,13 +63,14 @@ class FundamentalPolygon:
     word: Ints
 
 
+@of_a_surface
 def fundamental_polygon(K: DeltaComplex, trees: TreeCotree | None = None) -> FundamentalPolygon:
     """Cut a surface open along a tree and the edges that are left over.
 
     Parameters
     ----------
-    K : DeltaComplex
-        Closed, oriented, connected.
+    K : surface
+        As for :func:`~igl_periods.period_matrix`: closed, oriented, connected.
     trees : TreeCotree, optional
         The default is ``tree_cotree(K)``; also ``shortest_tree_cotree(K, root)``.
 
@@ -117,6 +118,7 @@ def word_pairing(word: Ints) -> Ints:
     return np.sign(inverse - place)[:, None] * (between(place) - between(inverse))
 
 
+@of_a_surface
 def shortest_loops(
     K: DeltaComplex, root: int = 0, edge_lengths: ArrayLike | None = None
 ) -> list[Ints]:
@@ -124,8 +126,8 @@ def shortest_loops(
 
     Parameters
     ----------
-    K : DeltaComplex
-        Closed, oriented, connected.
+    K : surface
+        As for :func:`~igl_periods.period_matrix`: closed, oriented, connected.
     root : int
         Vertex at which all loops start and end.
     edge_lengths : (n_edges,) array-like, optional
