@@ -40,7 +40,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from igl_periods.arrays import Floats, Ints
+from igl_periods.display import facts_html
 from igl_periods.errors import MeshError
+from igl_periods.wording import counted
 
 from .checked_arrays import (
     check_equal_when_glued,
@@ -62,7 +64,7 @@ from .gluings import (
     twins_of_faces,
 )
 from .mesh_readers import vertices_and_faces
-from .surface_checks import check_surface
+from .surface_checks import check_surface, topology_in_words
 from .triangles import mollify
 
 if TYPE_CHECKING:
@@ -121,9 +123,16 @@ class DeltaComplex:
             array.flags.writeable = False
 
     def __repr__(self) -> str:
-        return (
-            f"DeltaComplex({self.n_vertices} vertices, {self.n_edges} edges, {self.n_faces} faces)"
-        )
+        faces = counted(self.n_faces, "face", "faces")
+        size = f"{self.n_vertices} vertices, {self.n_edges} edges, {faces}"
+        return f"DeltaComplex({'; '.join([size, *topology_in_words(self)])})"
+
+    def _repr_html_(self) -> str:
+        sizes = [("vertices", self.n_vertices), ("edges", self.n_edges), ("faces", self.n_faces)]
+        facts = [*sizes, ("surface", ", ".join(topology_in_words(self)))]
+        if self.mollification:
+            facts.append(("mollification", f"{self.mollification:.3g}"))
+        return facts_html("DeltaComplex", facts)
 
     @classmethod
     def from_mesh(cls, V: SurfaceLike | ArrayLike, F: ArrayLike | None = None) -> DeltaComplex:

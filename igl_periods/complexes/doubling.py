@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from igl_periods.arrays import Ints
+from igl_periods.display import arrays_repr
 from igl_periods.errors import ComplexError
 
 from .delta_complex import DeltaComplex
@@ -50,6 +51,8 @@ class Involution:
     edge, sign : (n_edges,) int, (n_edges,) int8
         Image of each edge, and +1 where σ keeps its direction, -1 where it reverses it.
     """
+
+    __repr__ = arrays_repr
 
     face: Ints
     vertex: Ints

@@ -81,14 +81,15 @@ def described(value: Any) -> str:
 def _is_pair(value: Any) -> bool:
     """Whether it is (V, F) or (V, F, report): two arrays of rows, where V alone has numbers."""
     return (
-        isinstance(value, (tuple, list)) and len(value) in (2, 3) and all(map(_has_rows, value[:2]))
+        isinstance(value, (tuple, list)) and len(value) in (2, 3) and all(map(has_rows, value[:2]))
     )
 
 
-def _has_rows(value: Any) -> bool:
+def has_rows(value: Any) -> bool:
+    """Whether it is an array of two dimensions, or would be but for rows of different lengths."""
     try:
         return np.ndim(value) == 2
-    except ValueError:  # rows of different lengths: still rows
+    except ValueError:
         return True
 
 

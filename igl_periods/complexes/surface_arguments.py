@@ -21,7 +21,7 @@ from igl_periods.run_log import stage
 
 from .checked_arrays import checked_corners
 from .delta_complex import DeltaComplex
-from .mesh_readers import is_array_like, vertices_and_faces
+from .mesh_readers import has_rows, is_array_like, vertices_and_faces
 
 # Of the arrays of a complex, while its edges are flipped.
 BYTES_A_FACE_FLIPPING = 400.0
@@ -144,4 +144,4 @@ def of_a_surface_or(
 
 def _are_rows(value: Any) -> bool:
     """Whether it can only be faces: dense and two-dimensional."""
-    return is_array_like(value) and np.ndim(value) == 2
+    return isinstance(value, (np.ndarray, list, tuple)) and has_rows(value)

@@ -23,8 +23,8 @@ Farkas, Kra, "Riemann surfaces" (1992), section III.6.
 Gu, Yau, "Global conformal surface parameterization" (2003).
 """
 
-from .jacobian import abel_jacobi
+from .jacobian import AbelJacobi, abel_jacobi
 from .even_form import most_even_form
 from .parametrization import Parametrization, parametrize
 
-__all__ = ["abel_jacobi", "most_even_form", "Parametrization", "parametrize"]
+__all__ = ["AbelJacobi", "abel_jacobi", "most_even_form", "Parametrization", "parametrize"]

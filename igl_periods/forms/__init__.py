@@ -46,7 +46,7 @@ from .calculus import (
     type_10,
     wedge,
 )
-from .hodge import hodge_decomposition
+from .hodge import HodgeDecomposition, hodge_decomposition
 from .holomorphic import holomorphic_forms, symplectic_mean_forms
 
 __all__ = [
@@ -69,6 +69,7 @@ __all__ = [
     "type_01",
     "type_10",
     "wedge",
+    "HodgeDecomposition",
     "hodge_decomposition",
     "holomorphic_forms",
     "symplectic_mean_forms",

@@ -38,7 +38,7 @@ from .matrix import PeriodMatrix, reduced_if_feasible, siegel_reduced
 from .certificate import certified_period_matrix
 from .adaptive_degree import ToleranceWarning
 from .computation import period_matrix, period_matrix_from_weights
-from .adaptive_mesh import refined_period_matrix
+from .adaptive_mesh import Refined, refined_period_matrix
 from .quality import MeshQuality, WIDE, mesh_quality
 from .extrapolation import Extrapolation, richardson
 from .real_surfaces import real_structure
@@ -53,6 +53,7 @@ __all__ = [
     "ToleranceWarning",
     "period_matrix",
     "period_matrix_from_weights",
+    "Refined",
     "refined_period_matrix",
     "mesh_quality",
     "MeshQuality",

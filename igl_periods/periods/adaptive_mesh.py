@@ -37,6 +37,7 @@ from igl_periods.complexes import (
     of_a_surface,
     split,
 )
+from igl_periods.display import facts_html, rounded_up
 from igl_periods.harmonic import (
     dirichlet_matrix,
     energy_excess,
@@ -73,6 +74,17 @@ class Refined:
     complex: DeltaComplex
     cochains: csr_array
     steps: tuple[tuple[int, float], ...]
+
+    def __repr__(self) -> str:
+        (first, before), (last, after) = self.steps[0], self.steps[-1]
+        return (
+            f"Refined({first} to {last} faces, bound {rounded_up(before, 3)} to "
+            f"{rounded_up(after, 3)})"
+        )
+
+    def _repr_html_(self) -> str:
+        rows = [(f"{n} faces", f"bound {rounded_up(bound, 3)}") for n, bound in self.steps]
+        return facts_html("Refined", rows)
 
 
 @of_a_surface

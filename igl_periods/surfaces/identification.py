@@ -31,6 +31,7 @@ from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Complexes, Ints
 from igl_periods.complexes import SurfaceLike, as_complex, is_array_like
+from igl_periods.display import facts_html
 from igl_periods.moduli import (
     ARRAY_TOLERANCE,
     LARGEST_TOLERANCE,
@@ -71,6 +72,12 @@ class Match:
     gamma: Ints
     claim: str
 
+    def __repr__(self) -> str:
+        return f"Match({self.surface.name}: {self.claim})"
+
+    def _repr_html_(self) -> str:
+        return facts_html("Match", [(self.surface.name, self.claim)])
+
 
 @dataclass(frozen=True, eq=False)
 class Identification(Sequence[Match]):
@@ -103,6 +110,18 @@ class Identification(Sequence[Match]):
     def __getitem__(self, index: slice) -> tuple[Match, ...]: ...
     def __getitem__(self, index: int | slice) -> Match | tuple[Match, ...]:
         return self.matches[index]
+
+    def __repr__(self) -> str:
+        names = ", ".join(match.surface.name for match in self.matches) or "none"
+        undecided = f"; {len(self.undecided)} undecided" if self.undecided else ""
+        return (
+            f"Identification({names} of {len(self.compared)} surfaces of genus {self.genus}"
+            f"{undecided})"
+        )
+
+    def _repr_html_(self) -> str:
+        rows = [line.partition(": ")[::2] for line in str(self).splitlines()]
+        return facts_html(f"Named surfaces of genus {self.genus} near Π", rows)
 
     def __str__(self) -> str:
         lines = [f"{match.surface.name}: {match.claim}" for match in self.matches]

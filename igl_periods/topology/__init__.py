@@ -34,7 +34,7 @@ from .cohomology import cochains_and_basis, cohomology_basis, pairing
 from .cycles import homology_basis
 from .short_cycles import canonical_cycles
 from .dual_cycles import dual_homology_basis
-from .fundamental_group import fundamental_polygon, shortest_loops
+from .fundamental_group import FundamentalPolygon, fundamental_polygon, shortest_loops
 from .cuts import cut_to_disk
 
 __all__ = [
@@ -45,6 +45,7 @@ __all__ = [
     "homology_basis",
     "canonical_cycles",
     "dual_homology_basis",
+    "FundamentalPolygon",
     "fundamental_polygon",
     "shortest_loops",
     "cut_to_disk",

@@ -40,10 +40,14 @@ from scipy.sparse.csgraph import breadth_first_order
 
 from igl_periods.arrays import Ints
 from igl_periods.complexes import DeltaComplex, check_surface, next_corner, of_a_surface
+from igl_periods.display import facts_html
 from igl_periods.errors import ComplexError
 
 from .cycles import rooted_loops
 from .spanning_trees import TreeCotree, checked_edge_lengths, shortest_tree_cotree, tree_cotree
+
+# Letters of the word that a notebook shows: those of genus 8.
+_LETTERS_SHOWN = 32
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,6 +65,15 @@ class FundamentalPolygon:
 
     boundary: Ints
     word: Ints
+
+    def __repr__(self) -> str:
+        return f"FundamentalPolygon({self.word.size} sides, {self.boundary.size} edges around)"
+
+    def _repr_html_(self) -> str:
+        shown = [f"x{abs(k)}{'⁻¹' * (k < 0)}" for k in self.word[:_LETTERS_SHOWN].tolist()]
+        word = " ".join([*shown, *["…"] * (self.word.size > _LETTERS_SHOWN)])
+        facts = [("sides", self.word.size), ("edges around", self.boundary.size), ("word", word)]
+        return facts_html("Fundamental polygon", facts)
 
 
 @of_a_surface
