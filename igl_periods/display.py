@@ -197,7 +197,7 @@ def _joined(cell: tuple[str, str, str]) -> str:
 
 
 def _aligned(column: Sequence[tuple[str, str, str]]) -> list[str]:
-    """The entries of a column with their decimal points, signs and i in line."""
+    """The entries of a column with their decimal points and signs in line."""
     im = _on_points([cell[2] for cell in column])
     if not any(cell[1] for cell in column):  # real or imaginary: one number each
         return _on_points([cell[0] or cell[2] for cell in column])

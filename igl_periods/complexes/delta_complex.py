@@ -123,9 +123,13 @@ class DeltaComplex:
             array.flags.writeable = False
 
     def __repr__(self) -> str:
-        faces = counted(self.n_faces, "face", "faces")
-        size = f"{self.n_vertices} vertices, {self.n_edges} edges, {faces}"
-        return f"DeltaComplex({'; '.join([size, *topology_in_words(self)])})"
+        sizes = [
+            counted(self.n_vertices, "vertex", "vertices"),
+            counted(self.n_edges, "edge", "edges"),
+            counted(self.n_faces, "face", "faces"),
+        ]
+        topology = ", ".join(topology_in_words(self))
+        return f"DeltaComplex({', '.join(sizes)}{'; ' if topology else ''}{topology})"
 
     def _repr_html_(self) -> str:
         sizes = [("vertices", self.n_vertices), ("edges", self.n_edges), ("faces", self.n_faces)]

@@ -37,10 +37,12 @@ def mesh_of_object(mesh: Any) -> _Mesh | None:
         reader = _READERS.get(cls.__module__.split(".")[0])
         if reader is not None:
             return reader(mesh)
+    if not hasattr(mesh, "vertices"):
+        return None
     for name in ("faces", "triangles"):
-        if hasattr(mesh, "vertices") and hasattr(mesh, name):
-            return np.asarray(mesh.vertices), np.asarray(getattr(mesh, name))
-    return None
+        if hasattr(mesh, name):
+            return mesh.vertices, getattr(mesh, name)
+    raise MeshError(f"faces are missing: {type(mesh).__name__} has vertices, but no .faces.")
 
 
 def _trimesh(mesh: Any) -> _Mesh:
