@@ -1,16 +1,14 @@
-"""What is logged while a computation runs, and how a terminal shows it."""
+"""What is logged while a computation runs."""
 
-import io
 import logging
 
 import numpy as np
 import pytest
 
 from igl_periods import run_log as stages
-from igl_periods.cli.terminal import _StageFormatter
 from igl_periods.complexes.delta_complex import DeltaComplex
 from igl_periods.harmonic.energies import linear_energies
-from igl_periods.run_log import logger, progress, stage
+from igl_periods.run_log import progress, stage
 from igl_periods.siegel.reduction import siegel_reduce
 from igl_periods.surfaces import thickened_lattice
 from igl_periods.topology.cohomology import cochains_and_basis
@@ -64,29 +62,6 @@ def test_siegel_reduction_reports_its_parts(caplog, impatient):
     reported = [(record.progress, record.done) for record in caplog.records]
     for part in ("pairwise moves", "exchanges in the lattice", "quasi-inversions"):
         assert max(done for name, done in reported if name == part) > 0
-
-
-def test_a_terminal_shows_one_line_for_each_stage(impatient):
-    handler = logging.StreamHandler(io.StringIO())
-    handler.terminator = ""
-    handler.setFormatter(_StageFormatter())
-    logger.addHandler(handler)
-    logger.setLevel(logging.INFO)
-    try:
-        with stage("counting"):
-            progress("sheep", 3, 10)
-        logger.info("a remark")
-    finally:
-        logger.removeHandler(handler)
-        logger.setLevel(logging.NOTSET)
-    shown = handler.stream.getvalue()
-    # Each record starts the line again and clears it; only finished ones leave it.
-    assert shown.count("\r\x1b[K") == 4
-    lines = [line.split("\r\x1b[K")[-1] for line in shown.split("\n")]
-    assert "counting … sheep: 3 of 10" in shown
-    assert shown.count("\n") == 2
-    assert lines[0].startswith("  counting  ")
-    assert lines[1] == "  a remark"
 
 
 def test_harmonic_forms_report_their_equations_and_energies(caplog, impatient):

@@ -1,7 +1,6 @@
-"""Many meshes: rows, files, the journal, clusters whose workers die, the command ``batch``."""
+"""Runs: the same rows on any number of workers, whoever is killed; only what has changed."""
 
 import fcntl
-import json
 import operator
 import os
 import pty
@@ -16,21 +15,17 @@ from functools import partial
 from pathlib import Path
 
 import dask
-import distributed
 import igl
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
-from flat_surfaces import flat_strip
-from random_surfaces import noisy_torus, torus_of_revolution
-from threadpoolctl import threadpool_limits
+from support.mesh_folders import TETRAHEDRON, matrix, two_tori, write_tori
+from support.random_surfaces import noisy_torus
 
 import igl_periods as ip
 from igl_periods.batch import (
-    BatchError,
     BatchOptions,
     find_files,
-    local_cluster,
     remote_cluster,
     rows_of,
     run_batch,
@@ -39,54 +34,6 @@ from igl_periods.batch import cluster as batch_cluster
 from igl_periods.batch.journal import Journal
 from igl_periods.batch.rows import COLUMNS, file_hash
 from igl_periods.cli.program import main
-from igl_periods.moduli.genus_two import igusa_clebsch_invariants
-from igl_periods.surfaces import cyclic_cover
-
-DATA = Path(__file__).parents[1] / "data"
-TETRAHEDRON = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"
-
-# What the workers of these tests load: files whose name says so kill them, or take their time.
-HABITS = """
-import os, time
-from igl_periods.meshes import surface_files
-from igl_periods.batch import rows as batch_rows
-
-def read_surface(path, repair=False):
-    if "poison" in str(path):
-        os.kill(os.getpid(), 9)
-    if "slow" in str(path):
-        time.sleep(0.1)
-    return surface_files.read_surface(path, repair)
-
-batch_rows.read_surface = read_surface
-"""
-
-
-def write_tori(folder: Path, n: int, prefix: str = "") -> None:
-    folder.mkdir(parents=True, exist_ok=True)
-    for k in range(n):
-        path = folder / f"{prefix}torus_{k:02d}.off"
-        igl.write_triangle_mesh(str(path), *noisy_torus(7 + k % 3, 6, 0.1, k))
-
-
-def write_gluing(path: Path, K: ip.DeltaComplex) -> Path:
-    path.write_text(json.dumps({"lengths": K.lengths.tolist(), "twin": K.twin.tolist()}))
-    return path
-
-
-def two_tori(folder: Path) -> Path:
-    V, F = torus_of_revolution(2.0, 0.8, 12, 8)
-    W, G = noisy_torus(7, 6, 0.1, 2)
-    path = folder / "two.off"
-    igl.write_triangle_mesh(
-        str(path), np.concatenate([W + 9.0, V]), np.concatenate([G, F + len(W)])
-    )
-    return path
-
-
-def matrix(row) -> np.ndarray:
-    g = row["genus"]
-    return np.reshape(row["matrix_real"], (g, g)) + 1j * np.reshape(row["matrix_imag"], (g, g))
 
 
 def timeless(rows):
@@ -99,333 +46,6 @@ def computed_here(files, options=None):
 
 def read_rows(output):
     return pq.read_table(output).to_pylist()
-
-
-@pytest.fixture(scope="module")
-def habits(tmp_path_factory):
-    path = tmp_path_factory.mktemp("habits") / "habits.py"
-    path.write_text(HABITS)
-    return path
-
-
-@pytest.fixture(scope="module")
-def cluster(habits):
-    """Two workers, started once."""
-    with dask.config.set({"distributed.worker.preload": [str(habits)]}), local_cluster(2) as client:
-        yield client
-
-
-@pytest.fixture
-def address(cluster):
-    return cluster.scheduler.address
-
-
-# ---- Rows ----
-
-
-def test_matrices_of_very_high_genus_stay_in_the_marking_of_the_mesh(monkeypatch):
-    monkeypatch.setattr("igl_periods.periods.matrix.SIEGEL_GENUS_LIMIT", 1)
-    (row,) = rows_of(DATA / "lawson_2_1.off")
-    pm = ip.period_matrix(*ip.load_mesh(DATA / "lawson_2_1.off")[:2])
-    assert row["reduced"] is False
-    assert row["matrix_imag"] == pm.matrix.imag.ravel().tolist()
-    assert row["bound"] == pm.bound
-
-
-@pytest.mark.parametrize("name", ["lawson_2_1.off", "klein.json"])
-def test_a_row_holds_the_reduced_matrix_bit_for_bit(name):
-    (row,) = rows_of(DATA / name)
-    assert list(row) == list(COLUMNS)
-    with threadpool_limits(1):
-        surface = DATA / name
-        if name.endswith("off"):
-            pm = ip.period_matrix(*ip.load_mesh(surface)[:2]).reduced()
-        else:
-            gluing = json.loads(surface.read_text())
-            pm = ip.period_matrix(ip.DeltaComplex.from_gluing(**gluing)).reduced()
-    assert np.array_equal(matrix(row), pm.matrix)
-    assert row["bound"] == pm.bound
-    assert row["entry_bound"] == pm.entry_bounds.max()
-    assert row["symplectic_eigenvalues"] == pm.symplectic_eigenvalues.tolist()
-    assert (row["vertices"], row["faces"]) == (pm.complex.n_vertices, pm.complex.n_faces)
-    assert row["hash"] == file_hash(surface)
-    assert row["version"] == ip.__version__
-    assert (row["error"], row["error_kind"], row["warning"]) == (None, None, None)
-    if name.endswith("off"):
-        assert json.loads(row["mesh_report"])["result"]["triangles"] == 1536
-        assert json.loads(row["mesh_report"])["file"] == row["file"]
-    else:
-        assert row["mesh_report"] is None
-
-
-def test_options_reach_the_computation():
-    path = DATA / "omega_1.json"
-    fine, plain = (rows_of(path, BatchOptions(degree=p))[0] for p in (3, 1))
-    assert fine["bound"] < 0.1 * plain["bound"]
-    assert json.loads(fine["options"]) == {
-        "repair": False, "double": False, "weights": "intrinsic", "delaunay": True, "degree": 3,
-        "tolerance": None,
-    }  # fmt: skip
-    (met,) = rows_of(path, BatchOptions(tolerance=1e-6))
-    assert met["bound"] < 1e-6
-    (unmet,) = rows_of(path, BatchOptions(tolerance=1e-17))
-    assert "the bound is" in unmet["warning"]
-    assert unmet["error"] is None
-
-
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        ({"degree": 0}, "degree 1 at least"),
-        ({"weights": "other"}, "weights must be"),
-        ({"tolerance": -1.0}, "always positive"),
-        ({"degree": 3, "tolerance": 1e-3}, "a tolerance chooses the degree"),
-    ],
-)
-def test_contradictory_options(options, message):
-    with pytest.raises(ValueError, match=message):
-        BatchOptions(**options)
-
-
-def test_a_sphere_has_an_empty_matrix(tmp_path):
-    (tmp_path / "sphere.off").write_text(TETRAHEDRON)
-    (row,) = rows_of(tmp_path / "sphere.off")
-    assert (row["genus"], row["matrix_real"], row["matrix_imag"]) == (0, [], [])
-    assert matrix(row).shape == (0, 0)
-    assert (row["bound"], row["entry_bound"], row["symplectic_eigenvalues"]) == (0.0, 0.0, [])
-    assert (row["j_real"], row["hyperelliptic"]) == (None, None)
-
-
-def test_components_are_rows_those_of_large_genus_first(tmp_path):
-    rows = rows_of(two_tori(tmp_path))
-    assert [(row["component"], row["genus"], row["vertices"]) for row in rows] == [
-        (1, 1, 96),
-        (2, 1, 42),
-    ]
-    assert rows[0]["mesh_report"] is not None
-    assert rows[1]["mesh_report"] is None
-
-
-def test_a_refused_component_is_a_row_beside_the_others(tmp_path):
-    V, F = torus_of_revolution(2.0, 0.8, 12, 8)
-    path = tmp_path / "one_open.off"
-    both = np.concatenate([F[1:], F + len(V)])
-    igl.write_triangle_mesh(str(path), np.concatenate([V, V + 9.0]), both)
-    closed, opened = rows_of(path)
-    assert (closed["genus"], closed["error"]) == (1, None)
-    assert (opened["component"], opened["genus"], opened["vertices"]) == (2, None, 96)
-    assert (opened["matrix_real"], opened["bound"]) == (None, None)
-    assert opened["error_kind"] == "ComplexError"
-    assert "it has 3 boundary edges" in opened["error"]
-    doubles = rows_of(path, BatchOptions(double=True))
-    assert [row["genus"] for row in doubles] == [2, 1, 1]
-
-
-def test_repair_makes_a_surface(tmp_path):
-    V, F = noisy_torus(7, 6, 0.1, 1)
-    path = tmp_path / "soup.off"
-    igl.write_triangle_mesh(str(path), V[F].reshape(-1, 3), np.arange(F.size).reshape(-1, 3))
-    assert len(rows_of(path)) == len(F)
-    (row,) = rows_of(path, BatchOptions(repair=True))
-    assert (row["genus"], row["vertices"]) == (1, 42)
-
-
-@pytest.mark.parametrize(
-    ("name", "content", "kind", "message"),
-    [
-        ("missing.off", None, "FileNotFoundError", "there is no mesh file"),
-        ("missing.json", None, "FileNotFoundError", "No such file"),
-        ("empty.off", "", "MeshError", "the file is empty."),
-        ("nonsense.obj", "nonsense", "MeshError", "the mesh is empty"),
-        ("other.json", "[]", "MeshError", "the file holds no gluing"),
-        ("fins.off", "OFF\n5 3 0\n0 0 0\n0 0 1\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n3 0 1 3\n3 0 1 4\n",
-         "MeshError", "border more than two faces"),
-    ],
-)  # fmt: skip
-def test_refused_files_are_rows(tmp_path, name, content, kind, message):
-    if content is not None:
-        (tmp_path / name).write_text(content)
-    (row,) = rows_of(tmp_path / name, name="x/y")
-    assert row["error_kind"] == kind
-    assert message in row["error"]
-    assert (row["file"], row["component"], row["genus"]) == ("x/y", None, None)
-    assert (row["hash"] is None) == (content is None)
-    # The beginning of the message is not the path, which the column "file" has already.
-    assert not row["error"].startswith(str(tmp_path))
-
-
-def test_a_file_that_is_no_surface_has_its_report(tmp_path):
-    V, F = torus_of_revolution(2.0, 0.8, 6, 5)
-    path = tmp_path / "fin.off"
-    igl.write_triangle_mesh(str(path), V, np.vstack([F, [[0, 5, 17]]]))
-    (row,) = rows_of(path)
-    assert row["error_kind"] == "MeshError"
-    assert json.loads(row["mesh_report"])["result"]["nonmanifold_edges"] == 1
-
-
-# ---- Invariants ----
-
-
-def test_j_lies_within_its_certified_error(tmp_path):
-    K = flat_strip(1.0, 2.0, 4, 5, "straight", "straight", seed=3)
-    path = write_gluing(tmp_path / "torus.json", K)
-    for tolerance in (None, 1e-6):
-        (row,) = rows_of(path, BatchOptions(tolerance=tolerance))
-        assert abs(row["j_real"] + 1j * row["j_imag"] - 66**3) <= row["j_error"]
-    assert row["j_error"] < 10.0
-    assert row["hyperelliptic"] is None
-
-
-def test_without_a_certificate_nothing_is_certified(tmp_path):
-    path = tmp_path / "torus.off"
-    igl.write_triangle_mesh(str(path), *torus_of_revolution(2.0, 0.8, 20, 12))
-    for surface in (path, DATA / "lawson_2_1.off"):
-        (row,) = rows_of(surface, BatchOptions(weights="extrinsic"))
-        assert row["matrix_real"] is not None
-        assert [row[name] for name in ("bound", "entry_bound", "j_error")] == 3 * [None]
-        assert [row[name] for name in ("hyperelliptic", "vanishing_thetas")] == 2 * [None]
-        assert row["igusa_real"] is None
-
-
-@pytest.mark.parametrize(
-    ("name", "roots"),
-    [("omega_2.json", [0, 1, -1, 1j, -1j]), ("omega_3.json", [1.5, 2.0, 3.0])],
-)
-def test_absolute_invariants_of_curves_of_genus_two(name, roots):
-    (row,) = rows_of(DATA / name, BatchOptions(tolerance=1e-10))
-    assert (row["hyperelliptic"], row["vanishing_thetas"]) == (True, 0)
-    i2, i4, i6, i10 = igusa_clebsch_invariants(roots)
-    found = np.array(row["igusa_real"]) + 1j * np.array(row["igusa_imag"])
-    np.testing.assert_allclose(found, np.array([i2**5, i2**3 * i4, i2**2 * i6]) / i10, rtol=1e-7)
-
-
-def test_hyperelliptic_in_genus_three(tmp_path):
-    # "no" is proved; "yes" is not, and is not told.
-    (klein,) = rows_of(DATA / "klein.json", BatchOptions(tolerance=1e-3))
-    assert (klein["hyperelliptic"], klein["vanishing_thetas"]) == (False, 0)
-    roots = [1, 2, -1, -2, 1j, -1j, 2j, 1 + 2j]
-    path = write_gluing(tmp_path / "curve.json", cyclic_cover(2, roots, size=0.4))
-    (curve,) = rows_of(path, BatchOptions(tolerance=1e-6))
-    assert (curve["genus"], curve["hyperelliptic"], curve["vanishing_thetas"]) == (3, None, 1)
-
-
-# ---- Files ----
-
-
-def test_a_folder_is_searched_with_all_folders_in_it(tmp_path):
-    for name in ("b.off", "a/z.OBJ", "a/y/x.json", "c.txt", ".hidden.off", ".git/d.off"):
-        path = tmp_path / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.touch()
-    (tmp_path / "lost.ply").symlink_to("nowhere.ply")
-    os.mkfifo(tmp_path / "pipe.off")
-    found = find_files(tmp_path)
-    assert list(found) == ["a/y/x.json", "a/z.OBJ", "b.off", "lost.ply"]
-    assert found["a/z.OBJ"] == tmp_path / "a/z.OBJ"
-
-
-def test_a_list_is_relative_to_its_folder(tmp_path, monkeypatch):
-    folder = tmp_path / "lists"
-    folder.mkdir()
-    text = "\ufeff# meshes\n\nb.off\n  sub/a b.off  \r\n../c.off\nb.off\n/d.off\n"
-    (folder / "list.txt").write_text(text)
-    monkeypatch.chdir(tmp_path)
-    found = find_files("lists/list.txt")
-    assert list(found) == ["b.off", "sub/a b.off", "../c.off", "/d.off"]
-    assert found["sub/a b.off"] == folder / "sub/a b.off"
-
-
-def test_several_sources_are_named_as_given(tmp_path, monkeypatch):
-    write_tori(tmp_path / "one", 1)
-    write_tori(tmp_path / "two", 1)
-    monkeypatch.chdir(tmp_path)
-    assert list(find_files("two", "one/torus_00.off")) == ["two/torus_00.off", "one/torus_00.off"]
-    assert list(find_files("one/torus_00.off")) == ["torus_00.off"]
-
-
-def test_names_that_are_no_text(tmp_path):
-    path = os.path.join(os.fsencode(tmp_path), b"caf\xe9.off")
-    with open(path, "w") as file:
-        file.write(TETRAHEDRON)
-    ((name, found),) = find_files(tmp_path).items()
-    assert name == "caf\\xe9.off"
-    assert rows_of(found, name=name)[0]["genus"] == 0
-
-
-@pytest.mark.parametrize(
-    ("content", "error", "message"),
-    [
-        (None, FileNotFoundError, "there is no folder and no list"),
-        (b"# nothing\n\n", ip.MeshError, "there is no path in this list"),
-        (b"PAR1\0\0", ip.MeshError, "no folder, no mesh, and no text file"),
-    ],
-)
-def test_lists_that_are_none(tmp_path, content, error, message):
-    if content is not None:
-        (tmp_path / "list").write_bytes(content)
-    with pytest.raises(error, match=message):
-        find_files(tmp_path / "list")
-
-
-def test_an_empty_folder(tmp_path):
-    with pytest.raises(ip.MeshError, match=r"there is no mesh in the folder .* \(\.obj \.off"):
-        find_files(tmp_path)
-
-
-# ---- The journal ----
-
-
-@pytest.fixture
-def journal(tmp_path):
-    """A journal of three files."""
-    path = tmp_path / "x.parquet.journal"
-    with Journal(path) as kept:
-        for k in range(3):
-            kept.append([(f"{k}.off", [{"hash": str(k), "bound": 0.1 + k / 3}])])
-    return path
-
-
-def test_a_journal_cut_anywhere_keeps_all_whole_lines(journal):
-    whole = journal.read_bytes()
-    with Journal(journal) as kept:
-        everything = kept.rows
-    assert len(everything) == 3
-    for length in range(0, len(whole), 7):
-        journal.write_bytes(whole[:length])
-        lines = whole[:length].count(b"\n")
-        with Journal(journal) as kept:
-            assert list(kept.rows) == [f"{k}.off" for k in range(lines - 1)]
-            kept.append([("new.off", [{"hash": None}])])
-        with Journal(journal) as kept:
-            assert kept.rows.pop("new.off") == [{"hash": None}]
-            assert kept.rows.items() <= everything.items()
-
-
-def test_damage_at_the_end_is_cut_off(journal):
-    whole = journal.read_bytes()
-    for damage in (b"\0" * 40, b"[]\n", b'["a", []]\n', b"{}\n{}\n", b"\xff\xfe\n", b"3\n"):
-        journal.write_bytes(whole + damage)
-        with Journal(journal) as kept:
-            assert len(kept.rows) == 3
-        assert journal.read_bytes() == whole
-
-
-def test_the_last_line_about_a_file_counts(journal):
-    with Journal(journal) as kept:
-        kept.append([("1.off", [{"hash": "new"}])])
-    with Journal(journal) as kept:
-        assert kept.rows["1.off"] == [{"hash": "new"}]
-    with Journal(journal, restart=True) as kept:
-        assert kept.rows == {}
-
-
-def test_a_journal_is_written_by_one_run_and_is_no_other_file(journal):
-    with Journal(journal), pytest.raises(BlockingIOError, match="another run is writing"):
-        Journal(journal)
-    journal.write_text("my diary\n")
-    with pytest.raises(FileExistsError, match="is no journal of a batch"):
-        Journal(journal, restart=True)
-    assert journal.read_text() == "my diary\n"
 
 
 # ---- Runs ----
@@ -577,51 +197,6 @@ def test_a_worker_that_cannot_do_its_work_makes_rows_with_errors(tmp_path, clust
     assert (row["file"], row["error_kind"]) == ("a", "TypeError")
 
 
-def test_clusters_that_cannot_be_used(address, monkeypatch):
-    monkeypatch.setattr(batch_cluster, "_CONNECTING", 0.5)
-    for other in ("tcp://127.0.0.1:1", "nonsense://x"):
-        with (
-            pytest.raises(BatchError, match=r"there is no scheduler at .* that can be reached"),
-            remote_cluster(other),
-        ):
-            pass
-    found_versions = distributed.Client.get_versions
-
-    def get_versions(client, **options):
-        found = found_versions(client, **options)
-        found["client"]["packages"]["igl_periods"] = "9.9"
-        return found
-
-    monkeypatch.setattr(distributed.Client, "get_versions", get_versions)
-    with (
-        pytest.raises(BatchError, match=r"has igl_periods \S+, and here it is 9.9"),
-        remote_cluster(address),
-    ):
-        pass
-
-
-def test_a_cluster_without_workers(tmp_path, monkeypatch):
-    monkeypatch.setattr(batch_cluster, "_PATIENCE", 0.5)
-    monkeypatch.setattr(batch_cluster, "_POLL", 0.1)
-    monkeypatch.setattr(batch_cluster, "_CONNECTING", 0.5)
-    with local_cluster(0) as client:
-        with (
-            pytest.raises(BatchError, match=r"has no workers\. Start some: 'dask worker tcp"),
-            remote_cluster(client.scheduler.address),
-        ):
-            pass
-        with pytest.raises(BatchError, match="has had no worker"):
-            run_batch({"a": "a.off"}, tmp_path / "x.parquet", client=client)
-
-
-def test_a_cluster_that_is_lost(tmp_path, monkeypatch):
-    write_tori(tmp_path / "m", 1)
-    with local_cluster(0) as client:
-        threading.Timer(0.3, client.shutdown).start()
-        with pytest.raises(BatchError, match="has been lost"):
-            run_batch(find_files(tmp_path / "m"), tmp_path / "x.parquet", client=client)
-
-
 # ---- The command ----
 
 
@@ -646,40 +221,6 @@ def test_the_command_on_a_cluster(tmp_path, address, capsys):
     assert "nothing to do: no file has changed" in capsys.readouterr().out
     assert main([*command, "--degree", "2", "--retry"]) == 0
     assert "1 computed now, 3 kept from before" in capsys.readouterr().out
-
-
-@pytest.mark.parametrize(
-    ("arguments", "code", "message"),
-    [
-        (["{}"], 1, "there is no mesh in the folder"),
-        (["{}/nowhere"], 1, "there is no folder and no list"),
-        (["{}", "--degree", "0"], 2, "degree 1 at least"),
-        (["a.off", "--scheduler", "nonsense://x"], 1, "there is no scheduler"),
-    ],
-)
-def test_refusals(tmp_path, capsys, arguments, code, message):
-    arguments = [text.format(tmp_path) for text in arguments]
-    assert main(["batch", *arguments, "-o", str(tmp_path / "x.parquet")]) == code
-    error = capsys.readouterr().err
-    assert message in error
-    assert error.startswith("igl-periods: ")
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (["meshes"], "-o"),
-        (["-o", "x.parquet"], "DIR"),
-        (["meshes", "-o", "x.csv"], "is a .parquet file"),
-        (["meshes", "-o", "x.parquet", "--workers", "0"], "at least 1"),
-        (["meshes", "-o", "x.parquet", "--workers", "2", "--scheduler", "x"], "not allowed with"),
-    ],
-)
-def test_wrong_usage(arguments, message, capsys):
-    with pytest.raises(SystemExit) as exit_:
-        main(["batch", *arguments])
-    assert exit_.value.code == 2
-    assert message in capsys.readouterr().err
 
 
 def started(*arguments, **options):
@@ -737,10 +278,3 @@ def test_interrupted_from_the_keyboard(tmp_path, habits):
     wait_for(lambda: not is_running(run.pid))
     with Journal(journal) as kept:
         assert 3 <= len(kept.rows) < 60
-
-
-def test_dask_and_arrow_are_imported_by_nothing_else():
-    late = {"dask", "distributed", "pyarrow", "open3d", "tqdm"}
-    code = f"import sys, igl_periods.cli.program; print({late} & {{*sys.modules}})"
-    command = [sys.executable, "-c", code]
-    assert subprocess.run(command, capture_output=True, text=True, check=True).stdout == "set()\n"

@@ -1,32 +1,17 @@
-"""The command line: what it prints, its JSON, its exit codes."""
+"""The command ``compute``: what it prints, its JSON, its exit codes."""
 
 import json
-import os
-import pty
-import shlex
-import subprocess
-import sys
 from pathlib import Path
 
 import igl
 import numpy as np
-import pytest
-from matching import mobius
-from random_surfaces import noisy_torus, torus_of_revolution
+from support.brute_force_equivalence import mobius
+from support.random_surfaces import noisy_torus
 
 import igl_periods as ip
-from igl_periods.cli.picture_arguments import reduced_surface as _reduced
-from igl_periods.cli.program import _parser, main
-from igl_periods.symplectic.canonical_basis import standard_form
+from igl_periods.cli.program import main
 
-DATA = Path(__file__).parents[1] / "data"
-
-
-@pytest.fixture
-def torus(tmp_path):
-    path = tmp_path / "torus.off"
-    igl.write_triangle_mesh(str(path), *torus_of_revolution(2.0, 0.8, 20, 12))
-    return path
+DATA = Path(__file__).parents[2] / "data"
 
 
 def test_summary_in_words(torus, capsys):
@@ -111,14 +96,6 @@ def test_high_genus_is_reduced_only_when_asked_for(torus, capsys, monkeypatch):
     assert document["options"]["reduce"] is True
 
 
-def test_pictures_of_high_genus_are_in_the_marking_of_the_mesh(torus, monkeypatch):
-    options = _parser().parse_args(["render", str(torus), "-o", "torus.png"])
-    pm = ip.period_matrix(*ip.load_mesh(torus)[:2])
-    assert np.array_equal(_reduced(options)[0].matrix, pm.reduced().matrix)
-    monkeypatch.setattr("igl_periods.periods.matrix.SIEGEL_GENUS_LIMIT", 0)
-    assert np.array_equal(_reduced(options)[0].matrix, pm.matrix)
-
-
 def test_extrinsic_weights_come_without_a_bound(torus, capsys):
     assert main(["compute", str(torus), "--weights", "extrinsic", "--json"]) == 0
     document = json.loads(capsys.readouterr().out)
@@ -145,54 +122,6 @@ def test_tolerance_and_degree(capsys):
     assert "warning: the bound is" in capsys.readouterr().err
 
 
-def test_a_reader_who_has_had_enough_is_no_error(torus):
-    python, mesh = shlex.quote(sys.executable), shlex.quote(str(torus))
-    command = f"{python} -m igl_periods compute {mesh} --json | head -c 10"
-    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=True)
-    assert done.stderr == ""
-
-
-def test_version(capsys):
-    with pytest.raises(SystemExit) as exit_:
-        main(["--version"])
-    assert exit_.value.code == 0
-    assert ip.__version__ in capsys.readouterr().out
-
-
-def test_components_are_computed_one_by_one(tmp_path, capsys):
-    V, F = torus_of_revolution(2.0, 0.8, 12, 8)
-    W, G = noisy_torus(7, 6, 0.1, 2)
-    path = tmp_path / "two.off"
-    igl.write_triangle_mesh(
-        str(path), np.concatenate([V, W + 9.0]), np.concatenate([F, G + len(V)])
-    )
-    assert main(["compute", str(path)]) == 1
-    assert "--component" in capsys.readouterr().err
-    assert main(["compute", str(path), "--component", "all"]) == 0
-    assert "Component 2 of 2" in capsys.readouterr().out
-    assert main(["compute", str(path), "--component", "all", "--json"]) == 0
-    parts = json.loads(capsys.readouterr().out)["components"]
-    assert [part["surface"]["vertices"] for part in parts] == [96, 42]
-    assert main(["compute", str(path), "--component", "2", "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["surface"]["vertices"] == 42
-    assert main(["compute", str(path), "--component", "3"]) == 1
-    assert "there is no component 3" in capsys.readouterr().err
-
-
-def test_the_double_of_a_surface_with_boundary(tmp_path, capsys):
-    # A torus without one face has a boundary; its double has genus 2.
-    V, F = torus_of_revolution(2.0, 0.8, 12, 8)
-    path = tmp_path / "open.off"
-    igl.write_triangle_mesh(str(path), V, F[1:])
-    assert main(["compute", str(path)]) == 1
-    assert "--double" in capsys.readouterr().err
-    assert main(["compute", str(path), "--double", "--json"]) == 0
-    document = json.loads(capsys.readouterr().out)
-    assert document["surface"]["genus"] == 2
-    gamma = np.array(document["mesh_marking"]["real_structure"])
-    assert np.array_equal(gamma @ standard_form(2) @ gamma.T, -standard_form(2))
-
-
 def test_genus_zero_as_json(tmp_path, capsys):
     path = tmp_path / "sphere.off"
     V = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
@@ -208,98 +137,6 @@ def test_a_sphere_is_no_error(tmp_path, capsys):
     igl.write_triangle_mesh(str(path), V, np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]))
     assert main(["compute", str(path)]) == 0
     assert "genus 0" in capsys.readouterr().out
-
-
-@pytest.mark.parametrize(
-    ("content", "message"),
-    [
-        (None, "no mesh file"),
-        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "not closed: it has 3 boundary edges"),
-        ("nonsense", "bad.off"),
-    ],
-)
-def test_refused_meshes_exit_with_one(tmp_path, capsys, content, message):
-    path = tmp_path / "bad.off"
-    if content is not None:
-        path.write_text(content)
-    assert main(["compute", str(path)]) == 1
-    error = capsys.readouterr().err
-    assert message in error
-    assert error.startswith("igl-periods: ")
-
-
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        [],
-        ["compute"],
-        ["compute", "x.off", "--weights", "other"],
-        ["compute", "x.off", "--reduce", "--no-reduce"],
-    ],
-)
-def test_wrong_usage_exits_with_two(arguments, capsys):
-    with pytest.raises(SystemExit) as exit_:
-        main(arguments)
-    assert exit_.value.code == 2
-    assert "usage" in capsys.readouterr().err
-
-
-def test_stages_are_shown_on_a_terminal_only(torus):
-    command = [sys.executable, "-m", "igl_periods", "compute", str(torus)]
-    piped = subprocess.run(command, capture_output=True, text=True, check=True)
-    assert piped.stderr == ""
-    reader, terminal = pty.openpty()
-    subprocess.run(command, stdout=subprocess.DEVNULL, stderr=terminal, check=True)
-    os.close(terminal)
-    shown = os.read(reader, 10_000).decode()
-    os.close(reader)
-    for stage in ("reading the file", "homology", "harmonic forms", "Siegel reduction"):
-        assert stage in shown
-
-
-@pytest.mark.parametrize(
-    ("name", "surface"),
-    [
-        ("lawson_2_1.off", "Lawson xi_{2,1}"),
-        ("lawson_2_1_sphere.json", "Lawson xi_{2,1}"),
-        ("omega_3.json", "Lawson xi_{2,1}"),
-        ("hyperelliptic_x6_1.json", "Lawson xi_{2,1}"),
-        ("klein.json", "Klein"),
-        ("omega_2.json", "Bolza"),
-        ("omega_1.json", "Omega_1"),
-        ("wente_20x20.obj", "Wente"),
-    ],
-)
-def test_surfaces_are_identified(capsys, name, surface):
-    assert main(["identify", str(DATA / name)]) == 0
-    first = capsys.readouterr().out.split("\n\n")[1].splitlines()[0]
-    assert surface.lower() in first.lower()
-    assert "consistent with the certificate" in first
-
-
-def test_a_generic_surface_is_none_of_the_named_ones(tmp_path, capsys):
-    path = tmp_path / "generic.obj"
-    igl.write_triangle_mesh(str(path), *noisy_torus(12, 9, 0.1, 4))
-    assert main(["identify", str(path)]) == 0
-    assert "consistent" not in capsys.readouterr().out
-
-
-@pytest.mark.parametrize(
-    ("content", "message"),
-    [
-        ("[]", "holds no gluing"),
-        ('{"lengths": [[1, 1, 1]], "twin": [[0, 1]]}', "twin must have shape"),
-        ('{"lengths": [[1, 1, 1], [1]], "twin": []}', "holds no gluing"),
-        ("{", "holds no gluing"),
-        ("[" * 100_000, "holds no gluing"),
-        ("1" * 5000, "holds no gluing"),
-    ],
-)
-def test_gluings_that_are_refused(tmp_path, capsys, content, message):
-    path = tmp_path / "gluing.json"
-    path.write_text(content)
-    assert main(["compute", str(path)]) == 1
-    assert message in capsys.readouterr().err
 
 
 def test_a_matrix_that_cannot_be_reduced_is_not_lost(monkeypatch, capsys):

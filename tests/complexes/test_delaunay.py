@@ -3,7 +3,7 @@
 import igl
 import numpy as np
 import pytest
-from random_surfaces import (
+from support.random_surfaces import (
     L_SHAPE,
     noisy_torus,
     random_gluing,

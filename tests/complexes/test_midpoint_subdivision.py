@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from random_surfaces import BOLZA, L_SHAPE, noisy_torus, random_gluing, random_lengths
 from scipy.sparse import csr_array
+from support.random_surfaces import BOLZA, L_SHAPE, noisy_torus, random_gluing, random_lengths
 
 import igl_periods as ip
 from igl_periods.complexes.midpoint_subdivision import locate, split

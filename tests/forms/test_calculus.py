@@ -1,16 +1,10 @@
-"""The calculus of Section 2 of Bobenko, Mercat, Schmies: every identity, on Λ and on ◊."""
+"""The calculus of Section 2 of Bobenko, Mercat, Schmies: every identity, on Λ."""
 
 import numpy as np
-import pytest
 import scipy.linalg
-from delaunay_surfaces import SURFACES, distorted, flat_torus
-from random_surfaces import BOLZA, L_SHAPE, torus_grid
-from scipy.sparse import csr_array
+from support.discrete_forms import close, flat, random_forms, random_functions, side_differential
 
 import igl_periods as ip
-from igl_periods.complexes.delaunay import intrinsic_delaunay
-from igl_periods.complexes.half_edges import edge_ends
-from igl_periods.complexes.weights import cotan_weights
 from igl_periods.forms.calculus import (
     adjoint_d0,
     adjoint_d1,
@@ -33,144 +27,14 @@ from igl_periods.forms.calculus import (
 from igl_periods.forms.graph import double_graph
 from igl_periods.forms.quad_graph import (
     on_diagonals,
-    quad_product,
     side_d0,
     side_d1,
     side_ends,
-    side_product,
-    side_wedge,
 )
 from igl_periods.harmonic.laplace_matrix import laplacian
 
-GRAPHS = {name: surface.graph for name, surface in SURFACES.items()}
-
-
-@pytest.fixture(params=GRAPHS)
-def graph(request):
-    return GRAPHS[request.param]
-
-
-@pytest.fixture
-def rng():
-    return np.random.default_rng(0)
-
-
-def complex_normal(rng, *shape):
-    return rng.normal(size=shape) + 1j * rng.normal(size=shape)
-
-
-def random_forms(graph, rng, *batch):
-    return complex_normal(rng, *batch, 2, graph.n_edges)
-
-
-def random_functions(graph, rng, *batch):
-    return complex_normal(rng, *batch, graph.n_vertices)
-
-
-def close(one, other):
-    """Equal up to rounding, relative to the largest value."""
-    one, other = np.broadcast_arrays(one, other)
-    size = max(np.abs(one).max(initial=0), np.abs(other).max(initial=0), 1.0)
-    return np.abs(one - other).max(initial=0) < 1e-12 * size
-
-
-# The double graph and the quad-graph.
-
-
-def test_lambda_and_the_quad_graph_are_cell_decompositions(graph):
-    chi = graph.complex.euler_characteristic
-    n_primal = graph.complex.n_vertices
-    n_dual = graph.n_vertices - n_primal
-    assert n_primal - graph.n_edges + n_dual == chi
-    assert graph.n_vertices - 2 * graph.n_edges + graph.n_edges == chi
-    for row, vertices in enumerate((range(n_primal), range(n_primal, graph.n_vertices))):
-        assert np.array_equal(np.union1d(graph.tail[row], graph.head[row]), vertices)
-
-
-def test_every_side_has_a_quadrilateral_on_either_hand(graph):
-    for along in (graph.sides[[0, 2]], graph.sides[[1, 3]]):
-        assert np.array_equal(np.sort(along.ravel()), np.arange(2 * graph.n_edges))
-
-
-def test_sides_join_the_ends_of_the_diagonals(graph):
-    start, end = side_ends(graph)
-    (x, y), (x2, y2) = graph.tail, graph.head
-    assert np.array_equal(start[graph.sides], [x, x2, x2, x])
-    assert np.array_equal(end[graph.sides], [y, y, y2, y2])
-
-
-@pytest.mark.parametrize("n", [1, 2, 3])
-def test_diagonals_of_squares_are_no_edges(n):
-    graph = double_graph(ip.DeltaComplex.from_squares(L_SHAPE, n))
-    np.testing.assert_allclose(graph.rho, 1.0, rtol=1e-14)
-    n_squares = graph.n_vertices - graph.complex.n_vertices
-    assert (graph.n_edges, n_squares) == (6 * n * n, 3 * n * n)
-    degree = np.bincount(np.concatenate([graph.tail[1], graph.head[1]]))
-    assert np.array_equal(degree[graph.complex.n_vertices :], np.full(n_squares, 4))
-
-
-def test_diagonals_of_rectangles_are_no_edges():
-    # Their cotangents add up to 0 by Pythagoras, in floating point to something of either sign.
-    rng = np.random.default_rng(0)
-    signs = set()
-    for a, b in rng.uniform(0.1, 1.0, (40, 2)):
-        F = torus_grid(3, 4)
-        lengths = np.empty((24, 3))
-        lengths[:12], lengths[12:] = (b, np.hypot(a, b), a), (a, b, np.hypot(a, b))
-        K = ip.DeltaComplex.from_lengths(lengths, F)
-        diagonals = np.setdiff1d(np.arange(K.n_edges), (graph := double_graph(K)).edges)
-        assert (graph.n_edges, diagonals.size) == (24, 12)
-        signs |= set(np.sign(cotan_weights(K)[diagonals]))
-    assert signs >= {-1.0, 1.0}
-
-
-def test_squares_by_explicit_weights_are_the_same_graph():
-    K = ip.DeltaComplex.from_squares(BOLZA, 2)
-    one, two = double_graph(K), double_graph(K, np.rint(cotan_weights(K)))
-    for name in ("edges", "tail", "head", "polygon", "sides"):
-        assert np.array_equal(getattr(one, name), getattr(two, name))
-
-
-def test_negative_weights_are_refused():
-    K = distorted(L_SHAPE, 3, 0.15, 0)
-    negative = np.count_nonzero(cotan_weights(K) < 0)
-    with pytest.raises(ip.ComplexError, match=f"{negative} of 81 weights .* Run Delaunay first"):
-        double_graph(K)
-    double_graph(intrinsic_delaunay(K, csr_array((0, K.n_edges)))[0])
-
-
-def test_weights_that_leave_no_discs_are_refused():
-    K = ip.DeltaComplex.from_squares(L_SHAPE, 2)
-    with pytest.raises(ip.ComplexError, match=r"36 edges of weight 0 .* not to discs"):
-        double_graph(K, np.zeros(K.n_edges))
-    around_a_vertex = np.ones(K.n_edges)
-    around_a_vertex[np.any(np.stack(edge_ends(K)) == 0, axis=0)] = 0.0
-    with pytest.raises(ip.ComplexError, match="not to discs"):
-        double_graph(K, around_a_vertex)
-
-
-@pytest.mark.parametrize(
-    ("weights", "message"),
-    [
-        (np.ones(7), r"shape \(9,\), one per edge, not \(7,\)"),
-        (np.ones(9, dtype=complex), "real array .* of complex128"),
-        (np.full(9, np.nan), "NaN or infinite"),
-    ],
-)
-def test_malformed_weights_are_refused(weights, message):
-    with pytest.raises(ip.ComplexError, match=message):
-        double_graph(ip.DeltaComplex.from_squares(L_SHAPE, 1), weights)
-
-
-def test_a_surface_with_boundary_is_refused():
-    K = ip.DeltaComplex.from_lengths(np.ones((1, 3)), [[0, 1, 2]])
-    with pytest.raises(ip.ComplexError, match="not closed"):
-        double_graph(K)
-
 
 # The exterior derivative, the star, the scalar product, the adjoint.
-
-
 def test_d_is_the_sum_around_triangles_and_around_vertices(graph, rng):
     # Second route: from the arrays of the triangulation, side by side and corner by corner.
     K = graph.complex
@@ -189,14 +53,6 @@ def test_d_after_d_is_zero(graph, rng):
     assert close(d1(graph, d0(graph, f)), 0)
     assert close(side_d1(graph, side_d0(graph, f)), 0)
     assert close(adjoint_d0(graph, adjoint_d1(graph, f)), 0)
-
-
-def test_stokes_on_a_closed_surface(graph, rng):
-    n = graph.complex.n_vertices
-    sums = d1(graph, random_forms(graph, rng))
-    assert close(sums[:n].sum(), 0)
-    assert close(sums[n:].sum(), 0)
-    assert close(side_d1(graph, complex_normal(rng, 2 * graph.n_edges)).sum(), 0)
 
 
 def test_star(graph, rng):
@@ -302,8 +158,6 @@ def test_laplacian_of_forms(graph, rng):
 
 
 # Types.
-
-
 def test_types_are_eigenspaces_of_the_star(graph, rng):
     alpha, beta = random_forms(graph, rng), random_forms(graph, rng)
     holomorphic, antiholomorphic = type_10(graph, alpha), type_01(graph, alpha)
@@ -333,8 +187,6 @@ def test_wedge_products_and_types(graph, rng):
 
 
 # Energies and areas.
-
-
 def test_dirichlet_energy_is_the_mean_of_those_of_both_graphs(graph, rng):
     f = random_functions(graph, rng)
     n = graph.complex.n_vertices
@@ -382,20 +234,6 @@ def test_area_is_that_of_the_image_quadrilaterals(graph, rng):
     assert close(area(df), 0)
 
 
-def test_area_is_an_integral_along_the_boundary(graph, rng):
-    # Equation 8, second form, on a random part of the surface.
-    f = random_functions(graph, rng)
-    df = d0(graph, f)
-    chosen = rng.random(graph.n_edges) < 0.4
-    boundary = np.zeros(2 * graph.n_edges)
-    np.add.at(boundary, graph.sides[:, chosen], np.array([[1.0], [-1], [1], [-1]]))
-    inner = np.bincount(graph.sides[:, chosen].ravel(), minlength=boundary.size) == 2
-    assert not boundary[inner].any()
-    form = side_product(graph, f, side_d0(graph, f.conj()))
-    form -= side_product(graph, f.conj(), side_d0(graph, f))
-    assert close(0.5j * wedge(df, df.conj())[chosen].sum(), 0.25j * (boundary * form).sum())
-
-
 def test_derivatives(graph, rng):
     df = random_forms(graph, rng)
     dz = type_10(graph, random_forms(graph, rng))
@@ -403,62 +241,6 @@ def test_derivatives(graph, rng):
     assert close(df, f_z * dz + f_zbar * dz.conj())
     size = np.abs(f_z) ** 2 - np.abs(f_zbar) ** 2
     assert close(wedge(df, df.conj()), size * wedge(dz, dz.conj()))
-
-
-# The quad-graph.
-
-
-def test_wedge_product_on_sides_is_that_of_the_averages_on_diagonals(graph, rng):
-    alpha, beta = complex_normal(rng, 2, 3, 2 * graph.n_edges)
-    assert close(
-        side_wedge(graph, alpha, beta),
-        wedge(on_diagonals(graph, alpha), on_diagonals(graph, beta)),
-    )
-    assert close(side_wedge(graph, alpha, beta), -side_wedge(graph, beta, alpha))
-
-
-def test_wedge_product_on_sides_is_the_sum_over_corners(graph, rng):
-    # The formula as it stands, corner by corner of one quadrilateral after the other.
-    alpha, beta = complex_normal(rng, 2, 2 * graph.n_edges)
-    product = side_wedge(graph, alpha, beta)
-    for q in range(graph.n_edges):
-        # Values along x_k x_{k+1}, with x_1 x_2 x_3 x_4 = x y x' y'.
-        a = [alpha[s] * sign for s, sign in zip(graph.sides[:, q], (1, -1, 1, -1))]
-        b = [beta[s] * sign for s, sign in zip(graph.sides[:, q], (1, -1, 1, -1))]
-        total = sum(a[k - 1] * b[k] - (-a[k]) * (-b[k - 1]) for k in range(4))
-        assert close(product[q], total / 4)
-
-
-def test_averages_of_exact_forms_are_exact(graph, rng):
-    f = random_functions(graph, rng)
-    assert close(on_diagonals(graph, side_d0(graph, f)), d0(graph, f))
-
-
-def test_d_is_a_derivation(graph, rng):
-    f, h = random_functions(graph, rng, 2)
-    product = side_product(graph, f, side_d0(graph, h)) + side_product(graph, h, side_d0(graph, f))
-    assert close(side_d0(graph, f * h), product)
-    mean_f, mean_h = (0.5 * (u[graph.tail] + u[graph.head]) for u in (f, h))
-    assert close(d0(graph, f * h), mean_f * d0(graph, h) + mean_h * d0(graph, f))
-    alpha = complex_normal(rng, 2 * graph.n_edges)
-    assert close(
-        side_d1(graph, side_product(graph, f, alpha)),
-        side_wedge(graph, side_d0(graph, f), alpha) + quad_product(graph, f, side_d1(graph, alpha)),
-    )
-
-
-# Discrete holomorphic functions.
-
-
-def flat(n=7, m=6, noise=0.12):
-    """A Delaunay triangulation of a flat torus without symmetry, and dz on the sides of ◊."""
-    K, z = flat_torus(n, m, noise, 1)
-    tail, head = edge_ends(K)
-    length = np.empty(K.n_edges)
-    length[K.edge] = K.lengths
-    dz = shortest_lift(z[head] - z[tail], length)
-    K, dz = intrinsic_delaunay(K, csr_array(dz[None]))
-    return (graph := double_graph(K)), side_differential(graph, dz.toarray()[0])
 
 
 def lattice(n):
@@ -469,31 +251,6 @@ def lattice(n):
     for side, step in ((2, 1.0), (0, 1j), (1, -1 - 1j)):
         dz[K.edge[0::2, side]] = K.sign[0::2, side] * step
     return (graph := double_graph(K)), side_differential(graph, dz)
-
-
-def shortest_lift(displacement, length, periods=(1.0, 0.3 + 1.1j)):
-    """The displacement on the torus that has the given length."""
-    shifts = [i * periods[0] + j * periods[1] for i in (-1, 0, 1) for j in (-1, 0, 1)]
-    lifts = displacement[:, None] + np.array(shifts)
-    best = np.abs(np.abs(lifts) - length[:, None]).argmin(axis=1)
-    return lifts[np.arange(len(lifts)), best]
-
-
-def side_differential(graph, dz):
-    """dz from the vertices to the circumcentres of a flat torus, from dz along its edges."""
-    K = graph.complex
-    side = K.sign * dz[K.edge]
-    double_area = (side[:, 2].conj() * side[:, 0]).imag
-    # From the middle of a side to the circumcentre: half its length times the cotangent.
-    cot = -(np.roll(side, 1, 1).conj() * np.roll(side, -1, 1)).real / double_area[:, None]
-    to_centre = np.zeros((2, K.n_edges), dtype=complex)
-    to_centre[(K.sign > 0).astype(int), K.edge] = 0.5j * cot * side
-    right, left = to_centre[:, graph.edges]
-    half = 0.5 * dz[graph.edges]
-    form = np.zeros(2 * graph.n_edges, dtype=complex)
-    form[graph.sides] = around = np.stack([half + right, right - half, left - half, half + left])
-    assert close(form[graph.sides], around)
-    return form
 
 
 def integrated(graph, dz):
@@ -507,17 +264,6 @@ def integrated(graph, dz):
             z[there[new]] = (z[here] + step)[new]
     there = np.abs(side_d0(graph, z) - dz) < 1e-12
     return z, there[graph.sides].all(axis=0)
-
-
-def test_quadrilaterals_of_a_flat_torus_are_kites_and_tile_it():
-    # e* has the length ρ |e| and crosses e at a right angle from right to left, and the areas of
-    # the quadrilaterals, all counterclockwise, add up to that of the torus.
-    graph, sides = flat()
-    dz = on_diagonals(graph, sides)
-    assert close(dz[1], 1j * graph.rho * dz[0])
-    assert close(side_d1(graph, sides), 0)
-    assert close(area(dz), 1.1)
-    assert (wedge(dz, dz.conj()).imag < 0).all()
 
 
 def test_z_is_holomorphic_and_its_conjugate_is_not():

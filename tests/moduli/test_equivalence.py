@@ -1,4 +1,4 @@
-"""Equivalence under Sp(2g, Z), automorphism groups, distance in moduli space."""
+"""Equivalence under Sp(2g, Z), and distance in moduli space."""
 
 import math
 import pickle
@@ -7,146 +7,25 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from matching import isomorphisms
-from modular_words import random_point, random_word
 from scipy.sparse import csr_array
+from support.modular_words import random_point, random_word
+from support.symmetric_matrices import SYMMETRIC, keys, reflected
 
 import igl_periods as ip
 from igl_periods.complexes.midpoint_subdivision import split
 from igl_periods.errors import EnumerationLimitError, NotASiegelPointError
-from igl_periods.moduli import lattice_isometries as isometries
 from igl_periods.moduli.automorphisms import symplectic_automorphism_group
 from igl_periods.moduli.equivalence import moduli_distance, symplectic_isomorphisms
 from igl_periods.siegel.half_space import siegel_distance, siegel_transform
 from igl_periods.surfaces import (
     cyclic_cover,
     flat_torus,
-    lawson_period_matrix,
-    regular_map_period_matrix,
     regular_map_surface,
-    square_tiled_period_matrix,
     square_tiled_surface,
 )
-from igl_periods.surfaces.named_surfaces import binomial_period_matrix
 from igl_periods.symplectic.canonical_basis import standard_form
 
 cases = st.tuples(st.integers(1, 6), st.integers(0, 2**32 - 1), st.integers(0, 30))
-
-# |Aut X| of the surface and whether Π decides that it is hyperelliptic.
-SYMMETRIC = {
-    "Omega_1": (square_tiled_period_matrix("omega_1"), 8, (8,)),
-    "Bolza": (square_tiled_period_matrix("omega_2"), 48, (48,)),
-    "Omega_3": (square_tiled_period_matrix("omega_3"), 24, (24,)),
-    "y^2 = x^5 - 1": (binomial_period_matrix(5), 10, (10,)),
-    "Klein": (regular_map_period_matrix("klein"), 336, (168,)),
-    "Fermat": (regular_map_period_matrix("fermat"), 192, (96,)),
-    "Schwarz P": (regular_map_period_matrix("schwarz_p"), 48, (48,)),
-    "Lawson 3,1": (lawson_period_matrix(3, 1), 32, (32,)),
-    "Lawson 4,1": (lawson_period_matrix(4, 1), 40, (20, 40)),
-    "Bring": (regular_map_period_matrix("bring"), 240, (120, 240)),
-}
-
-
-def keys(matrices) -> set:
-    return {gamma.tobytes() for gamma in matrices}
-
-
-def reflected(gamma: np.ndarray, Pi: np.ndarray) -> np.ndarray:
-    """(aΠ̄ + b)(cΠ̄ + d)⁻¹."""
-    (a, b), (c, d) = (np.hsplit(half, 2) for half in np.vsplit(gamma, 2))
-    return (a @ Pi.conj() + b) @ np.linalg.inv(c @ Pi.conj() + d)
-
-
-# --- automorphism groups -----------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("name", SYMMETRIC)
-def test_automorphism_groups_of_named_surfaces(name):
-    Pi, order, surface_orders = SYMMETRIC[name]
-    g = len(Pi)
-    group = symplectic_automorphism_group(Pi)
-    assert group.order == len(group) == order
-    assert group.surface_orders == surface_orders
-    J = standard_form(g)
-    assert all(np.array_equal(gamma @ J @ gamma.T, J) for gamma in group)
-    assert max(siegel_distance(siegel_transform(gamma, Pi), Pi) for gamma in group) < 1e-10
-    # A group: the identity comes first, −1 is there, and it is closed; its generators generate it.
-    assert np.array_equal(group[0], np.eye(2 * g, dtype=np.int64))
-    members = keys(group)
-    assert (-group[0]).tobytes() in members
-    assert keys(gamma @ generator for gamma in group for generator in group.generators) == members
-    assert len(group.generators) <= 4
-    reached = [group[0]]
-    for gamma in reached:
-        for generator in group.generators:
-            if (gamma @ generator).tobytes() not in keys(reached):
-                reached.append(gamma @ generator)
-    assert keys(reached) == members
-
-
-@pytest.mark.parametrize("name", SYMMETRIC)
-def test_reversing_symmetries_are_the_other_coset(name):
-    Pi, order, _ = SYMMETRIC[name]
-    group = symplectic_automorphism_group(Pi)
-    assert len(group.reversing) == order  # all these surfaces have real structures
-    J = standard_form(len(Pi))
-    assert all(np.array_equal(sigma @ J @ sigma.T, -J) for sigma in group.reversing)
-    assert max(siegel_distance(reflected(s, Pi), Pi) for s in group.reversing) < 1e-10
-    assert keys(group.reversing[0] @ gamma for gamma in group) == keys(group.reversing)
-    structures = group.real_structures
-    assert structures
-    assert all(np.array_equal(s @ s, np.eye(2 * len(Pi), dtype=np.int64)) for s in structures)
-    assert keys(structures) == keys(-sigma for sigma in structures)
-
-
-def test_real_structures_of_klein_and_bring():
-    # Those of Klein's quartic are the 28 outer involutions of PGL(2, 7); those of Bring's curve
-    # conjugation after one of the 1 + 10 + 15 permutations of order at most 2 of 5 coordinates.
-    assert len(symplectic_automorphism_group(SYMMETRIC["Klein"][0]).real_structures) == 2 * 28
-    assert len(symplectic_automorphism_group(SYMMETRIC["Bring"][0]).real_structures) == 2 * 26
-
-
-@pytest.mark.parametrize(
-    ("tau", "order", "n_reversing"),
-    [
-        (1j, 4, 4),
-        (np.exp(1j * np.pi / 3), 6, 6),
-        (2j, 2, 2),
-        (np.exp(1.3j), 2, 2),
-        (0.2 + 1.3j, 2, 0),
-    ],
-)
-def test_symmetries_of_tori(tau, order, n_reversing):
-    group = symplectic_automorphism_group([[tau]])
-    assert group.order == order
-    assert len(group.reversing) == n_reversing
-    assert group.surface_orders == (order,)
-
-
-@pytest.mark.parametrize("g", [2, 3, 5, 8])
-def test_generic_surfaces_have_no_symmetry(g):
-    Pi = random_point(g, np.random.default_rng(g))
-    group = symplectic_automorphism_group(Pi)
-    assert keys(group) == keys([np.eye(2 * g, dtype=np.int64), -np.eye(2 * g, dtype=np.int64)])
-    assert len(group.reversing) == 0
-    assert group.real_structures == []
-
-
-def test_the_search_agrees_with_brute_force():
-    for name in ("Omega_1", "Bolza", "Omega_3", "y^2 = x^5 - 1"):
-        Pi = SYMMETRIC[name][0]
-        found = symplectic_isomorphisms(Pi, Pi)
-        assert max(np.abs(gamma).max() for gamma in found) <= 2
-        assert keys(found) == keys(isomorphisms(Pi, Pi, 1e-8))
-
-
-def test_near_symmetries_need_not_form_a_group():
-    # Two rotations of nearly square and nearly hexagonal lattices do not compose.
-    Pi = [[0.25 + 0.97j]]
-    group = symplectic_automorphism_group(Pi, tolerance=0.6)
-    assert group.order > 2
-    with pytest.raises(ValueError, match="do not form a group"):
-        _ = group.generators
 
 
 # --- isomorphisms ------------------------------------------------------------------------------
@@ -242,13 +121,6 @@ def test_high_genus_is_given_up():
         symplectic_automorphism_group(Pi)
 
 
-def test_backtracking_is_given_up(monkeypatch):
-    monkeypatch.setattr(isometries, "SEARCH_LIMIT", 10)
-    Pi = SYMMETRIC["Bolza"][0]
-    found = symplectic_isomorphisms(Pi, Pi)
-    assert found.verdict == "undecided: the search was given up (more than 10 images tried)"
-
-
 # --- certificates ------------------------------------------------------------------------------
 
 
@@ -285,12 +157,6 @@ def test_the_two_subdivisions_of_brings_curve():
     assert found.certified
     assert len(found) >= 240
     assert 1e-3 < moduli_distance(one, two, found.tolerance) < math.sqrt(4) * found.tolerance
-
-
-def test_certified_group_contains_the_symmetries():
-    group = symplectic_automorphism_group(ip.period_matrix(square_tiled_surface("omega_3", 4)))
-    assert group.elements.certified
-    assert group.order == 24
 
 
 # --- distance in moduli space ------------------------------------------------------------------

@@ -5,13 +5,11 @@ import re
 
 import numpy as np
 import pytest
-from random_surfaces import random_gluing, random_lengths
 from scipy.sparse import csr_array
 
 import igl_periods as ip
 from igl_periods.complexes.delaunay import intrinsic_delaunay
-from igl_periods.elements.least_energy import dirichlet_matrix, energy_excess, high_order_forms
-from igl_periods.elements.trace_system import count_unknowns
+from igl_periods.elements.least_energy import high_order_forms
 from igl_periods.periods import adaptive_degree as adaptive
 from igl_periods.periods.adaptive_degree import (
     Attempt,
@@ -19,10 +17,8 @@ from igl_periods.periods.adaptive_degree import (
     Triangulation,
     period_matrix_within,
 )
-from igl_periods.periods.memory_estimates import high_order_memory
 from igl_periods.periods.rounding import LEAST_ALLOWANCE, congruence
 from igl_periods.surfaces.square_tiled import glued_rectangles, origami, square_tiled_surface
-from igl_periods.symplectic.williamson_form import williamson, williamson_basis
 from igl_periods.topology.cohomology import cochains_and_basis
 
 L_GLUING = [((0, 1), (1, 3)), ((1, 1), (0, 3)), ((0, 2), (2, 0)),
@@ -169,26 +165,3 @@ def test_tolerance_must_be_positive():
     for tolerance in (0.0, -1e-3, float("nan")):
         with pytest.raises(ValueError, match="a bound is always positive"):
             within(ASYMMETRIC, tolerance)
-
-
-@pytest.mark.parametrize("degree", [1, 3, 6, 11])
-def test_shares_of_faces_add_up_to_the_excess(degree):
-    rng = np.random.default_rng(2)
-    twin = random_gluing(8, rng)
-    K = ip.DeltaComplex.from_gluing(random_lengths(twin, rng), twin).components()[0]
-    forms = high_order_forms(K, ip.cohomology_basis(K), degree)
-    D = dirichlet_matrix(forms)
-    shares = energy_excess(forms, williamson_basis(D))
-    assert shares.shape == (K.genus, forms.complex.n_faces)
-    assert shares.min() >= 0.0
-    assert np.allclose(shares.sum(axis=1), williamson(D)[0] - 1, rtol=1e-4, atol=1e-14)
-
-
-def test_estimates_of_size():
-    K = high_order_forms(ASYMMETRIC, ip.cohomology_basis(ASYMMETRIC), 2).complex
-    for degree in (1, 2, 7):
-        forms = high_order_forms(K, ip.cohomology_basis(K), degree)
-        assert count_unknowns(K, degree) == len(forms.traces)
-        held = sum(extension.nbytes for extension in forms.extensions) + forms.traces.nbytes
-        assert high_order_memory(K, degree, 4) > held
-    assert high_order_memory(K, 12, 4) > 8 * high_order_memory(K, 4, 4)

@@ -25,6 +25,8 @@ def ring(n):
 
 
 RING = np.array([[torus_of_revolution_modulus(2.0, 1.0)]])
+
+
 WENTE = np.array([[wente_modulus()]])
 
 

@@ -1,26 +1,20 @@
-"""The complex double: known moduli inside the certificate, the involution, the real structure."""
+"""Doubles: known moduli inside the certificate, and the real structure."""
 
 import numpy as np
 import pytest
-from flat_surfaces import flat_strip, grid
-from random_surfaces import noisy_torus, random_gluing, random_lengths
 from scipy.sparse import csr_array
+from support.flat_surfaces import flat_strip, grid
+from support.surfaces_with_holes import annulus_pair, square_with_holes, tau_inside_certificate
 
 import igl_periods as ip
-from igl_periods.complexes.delaunay import intrinsic_delaunay
-from igl_periods.complexes.doubling import double, involution, lift
-from igl_periods.complexes.surface_checks import check_surface, is_orientable
+from igl_periods.complexes.doubling import double
+from igl_periods.complexes.surface_checks import is_orientable
 from igl_periods.elements.least_energy import dirichlet_matrix, high_order_forms
 from igl_periods.moduli.equivalence import symplectic_isomorphisms
 from igl_periods.periods.matrix import PeriodMatrix
 from igl_periods.periods.real_surfaces import real_structure
 from igl_periods.symplectic.canonical_basis import standard_form
-from igl_periods.topology.cohomology import cochains_and_basis, pairing
-
-
-def tau_inside_certificate(pm, tau):
-    """Whether (τ), in some marking, is within the certificate of pm."""
-    return bool(symplectic_isomorphisms([[tau]], pm, tolerance=2 * pm.bound + 1e-12))
+from igl_periods.topology.cohomology import cochains_and_basis
 
 
 @pytest.mark.parametrize("pieces", [(5, 3), (4, 7)])
@@ -77,18 +71,6 @@ def test_round_annulus_converges_with_order_two():
     assert np.all(np.abs(rates - 2) < 0.15)
 
 
-def square_with_holes(n, holes):
-    """[0, 7]² divided into 7n × 7n squares, without the unit squares at the given corners."""
-    size = 7 * n
-    F = grid(size, size).reshape(size, size, 2, 3)
-    keep = np.ones((size, size), dtype=bool)
-    for x, y in holes:
-        keep[x * n : (x + 1) * n, y * n : (y + 1) * n] = False
-    x, y = np.meshgrid(np.arange(size + 1), np.arange(size + 1), indexing="ij")
-    V = np.stack([x, y], axis=-1).reshape(-1, 2) / n
-    return ip.DeltaComplex.from_mesh(V, F[keep].reshape(-1, 3))
-
-
 def high_order(K, degree):
     cochains, T = cochains_and_basis(K)
     D = dirichlet_matrix(high_order_forms(K, cochains, degree))
@@ -119,14 +101,6 @@ def test_square_with_two_holes_in_the_same_marking():
     coarse, accurate = ip.period_matrix(K), high_order(K, 7)
     excess = np.abs(accurate.matrix - coarse.matrix) - coarse.entry_bounds - accurate.entry_bounds
     assert np.all(excess < 0)
-
-
-def annulus_pair():
-    """A square with two holes whose corner is displaced: nothing is symmetric."""
-    K = square_with_holes(1, ((1, 2), (4, 3)))
-    V, F = K.positions.copy(), K.corner_vertex
-    V += 0.2 * np.random.default_rng(3).uniform(-1, 1, V.shape)
-    return ip.DeltaComplex.from_mesh(V, F)
 
 
 def moebius_with_hole():
@@ -184,118 +158,6 @@ def test_real_structure_in_another_marking():
     # It is found among all orientation-reversing automorphisms, too.
     found = symplectic_isomorphisms(pm, pm, reversing=True)
     assert any(np.array_equal(gamma, other) for other in found)
-
-
-def random_surface(seed):
-    """Triangles glued at random, some sides free and some reversing the orientation."""
-    rng = np.random.default_rng(seed)
-    twin = random_gluing(12, rng)
-    lengths = random_lengths(twin, rng)
-    half_edge = np.arange(twin.size).reshape(-1, 3)
-    label = np.minimum(half_edge, twin)
-    same = rng.random(twin.size)[label] < 0.3
-    free = rng.random(twin.size)[label] < 0.2
-    return ip.DeltaComplex.from_gluing(
-        lengths, np.where(free, -1, twin), np.where(free, False, same)
-    )
-
-
-@pytest.mark.parametrize("seed", range(30))
-def test_involution_is_an_isometry_without_fixed_faces(seed):
-    K = random_surface(seed)
-    L = double(K)
-    assert L.n_boundary_edges == L.n_reversing_edges == 0
-    # χ(L) = 2 χ(K) − χ(∂K), and a closed curve has χ = 0.
-    assert L.euler_characteristic == 2 * K.euler_characteristic
-    sigma = involution(L)
-    for image in (sigma.face, sigma.vertex, sigma.half_edge, sigma.edge):
-        assert np.array_equal(image[image], np.arange(image.size))
-    assert np.all(sigma.face != np.arange(L.n_faces))
-    assert np.array_equal(L.lengths.ravel()[sigma.half_edge], L.lengths.ravel())
-    assert np.array_equal(sigma.sign[sigma.edge], sigma.sign)
-    # Exactly the boundary stays fixed, point by point.
-    fixed = sigma.edge == np.arange(L.n_edges)
-    assert np.count_nonzero(fixed & (sigma.sign > 0)) == K.n_boundary_edges
-    # σ maps the start of an edge to the start of its image, if it keeps the direction.
-    start, end = np.empty((2, L.n_edges), dtype=int)
-    h = np.flatnonzero(L.sign.ravel() > 0)
-    start[L.edge.ravel()[h]] = np.roll(L.corner_vertex, -1, 1).ravel()[h]
-    end[L.edge.ravel()[h]] = np.roll(L.corner_vertex, 1, 1).ravel()[h]
-    expected = np.where(sigma.sign > 0, start[sigma.edge], end[sigma.edge])
-    assert np.array_equal(sigma.vertex[start], expected)
-
-
-@pytest.mark.parametrize("seed", range(10))
-def test_lifted_cochains_are_closed_and_invariant(seed):
-    K = random_surface(seed)
-    L = double(K)
-    f = np.random.default_rng(seed).integers(-9, 9, K.n_vertices)
-    start, end = np.roll(K.corner_vertex, -1, 1), np.roll(K.corner_vertex, 1, 1)
-    exact = np.empty(K.n_edges, dtype=int)
-    exact[K.edge] = K.sign * (f[end] - f[start])
-    lifted = lift(K, L, csr_array(exact[None]))
-    around = (L.sign * lifted.toarray()[0][L.edge]).sum(axis=1)
-    assert np.all(around == 0)
-    moved = involution(L).pull_back(lifted)
-    assert np.array_equal(moved.toarray(), lifted.toarray())
-    # Restricted to the first sheet they are what they were.
-    along = (L.sign * lifted.toarray()[0][L.edge])[: K.n_faces]
-    assert np.array_equal(along, K.sign * exact[K.edge])
-
-
-def test_pairing_changes_sign():
-    L = double(annulus_pair())
-    omega = ip.cohomology_basis(L)
-    moved = involution(L).pull_back(omega)
-    assert np.array_equal(pairing(L, moved, moved), -pairing(L, omega, omega))
-
-
-def test_orientation_does_not_matter():
-    # Faces turned over give the same double up to the names of its parts.
-    K = flat_strip(1.7, 0.9, 5, 4, glue_x="straight")
-    turned = np.where(np.arange(K.n_faces)[:, None] % 3 == 0, [0, 2, 1], [0, 1, 2])
-    L = ip.DeltaComplex.from_lengths(
-        np.take_along_axis(K.lengths, turned, 1), np.take_along_axis(K.corner_vertex, turned, 1)
-    )
-    assert L.n_reversing_edges > 0
-    one, other = (ip.period_matrix(double(surface)) for surface in (K, L))
-    assert tau_inside_certificate(one, 2j * 0.9 / 1.7)
-    assert tau_inside_certificate(other, 2j * 0.9 / 1.7)
-
-
-def test_double_of_a_closed_surface_is_two_mirror_images():
-    K = ip.DeltaComplex.from_mesh(*noisy_torus(7, 6, 0.1, 1))
-    L = double(K)
-    with pytest.raises(ip.ComplexError, match="2 components"):
-        ip.period_matrix(L)
-    one, mirror = L.components()
-    tau, other = (ip.period_matrix(part) for part in (one, mirror))
-    assert np.array_equal(one.twin, K.twin)
-    assert symplectic_isomorphisms(tau, other, tolerance=1e-9, reversing=True)
-    assert not symplectic_isomorphisms(tau, other, tolerance=1e-9)
-
-
-def test_genus_and_labels():
-    # The double of a surface of genus g with b ≥ 1 boundary loops has genus 2g + b − 1.
-    V, F = noisy_torus(7, 6, 0.1, 1)
-    V = np.concatenate([[[9.0, 9, 9]], V])
-    K = ip.DeltaComplex.from_mesh(V, np.delete(F, [0, 40], axis=0) + 1)
-    L = double(K)
-    check_surface(L)
-    assert L.genus == 3
-    assert np.array_equal(V[L.labels], L.positions)
-    assert L.n_vertices == 2 * K.n_vertices - 6
-
-
-def test_what_is_no_double_is_refused():
-    L = double(annulus_pair())
-    flipped, _ = intrinsic_delaunay(L, ip.cohomology_basis(L))
-    assert flipped is not L
-    for K in (flipped, ip.DeltaComplex.from_mesh(*noisy_torus(5, 5, 0.1, 1))):
-        with pytest.raises(ip.ComplexError, match="is no double"):
-            involution(K)
-    with pytest.raises(ip.ComplexError, match="of 7 faces, is no double"):
-        involution(ip.DeltaComplex.from_lengths(np.ones((7, 3)), np.arange(21).reshape(7, 3)))
 
 
 def test_moebius_band_and_torus_with_a_hole_made_by_others(mesh):

@@ -19,7 +19,9 @@ from igl_periods.reports import page as report
 from igl_periods.reports.page import write_report
 from igl_periods.surfaces import flat_torus
 
-LAWSON = Path(__file__).parents[1] / "data" / "lawson_2_1.off"
+LAWSON = Path(__file__).parents[2] / "data" / "lawson_2_1.off"
+
+
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
 
 

@@ -3,11 +3,9 @@
 import flint
 import numpy as np
 import pytest
-from modular_words import random_point, random_word
+from support.modular_words import random_point, random_word
 
 from igl_periods.siegel.half_space import siegel_transform
-from igl_periods.symplectic.canonical_basis import is_symplectic, standard_form
-from igl_periods.symplectic.integer_matrices import product, unimodular_inverse
 
 HIGH = 42
 
@@ -70,48 +68,3 @@ def test_points_near_the_boundary(height):
     moved, exact = siegel_transform(gamma, Pi), exact_action(gamma, Pi)
     scale = np.abs(np.diag(exact)).min()
     assert np.abs(moved - exact).max() <= 2.0**-52 * max(scale, np.abs(exact).max())
-
-
-# Integers
-
-
-@pytest.mark.parametrize("largest", [3, 10**6, 6 * 10**7, 10**8])
-def test_products_are_exact(largest):
-    rng = np.random.default_rng(largest)
-    A, B = rng.integers(-largest, largest + 1, (2, 40, 40))
-    exact = A.astype(object) @ B.astype(object)
-    assert np.array_equal(product(A, B), exact)
-
-
-def test_products_beyond_64_bits():
-    A = np.full((2, 2), 2**40)
-    with pytest.raises(OverflowError):
-        product(A, A)
-
-
-@pytest.mark.parametrize("size", [1, 30])
-@pytest.mark.parametrize("largest", [1, 40])
-def test_inverses_are_exact(size, largest):
-    # Triangular factors: of determinant −1, and of inverses with huge entries.
-    rng = np.random.default_rng(size)
-    for _ in range(3):
-        L = np.tril(rng.integers(-largest, largest + 1, (size, size)), -1)
-        L[:, size // 3 + 1 :] = 0
-        U = (L + np.eye(size, dtype=np.int64))[::-1]
-        inverse = unimodular_inverse(U)
-        assert np.array_equal(inverse.astype(object) @ U.astype(object), np.eye(size))
-    assert unimodular_inverse(np.zeros((0, 0), dtype=np.int64)).shape == (0, 0)
-
-
-def test_symplectic_matrices_of_any_size():
-    # Sums that do not fit into 64 bits, right and wrong by a little.
-    k = 2**40
-    shear = np.array([[1, k], [0, 1]])
-    big = np.array([[1 + k * k // 2**20, k // 2**20], [k, 1]])
-    assert is_symplectic(shear)
-    assert is_symplectic(big)
-    assert not is_symplectic(big + np.array([[0, 0], [0, 1]]))
-    assert is_symplectic(shear, standard_form(1))
-    huge = np.array([[2**62, 2**62 - 1], [1, 1]])
-    assert is_symplectic(huge)
-    assert not is_symplectic(huge + np.array([[0, 0], [1, 0]]))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from modular_words import random_point, random_word
+from support.modular_words import random_point, random_word
 
 from igl_periods.siegel.half_space import siegel_transform
 from igl_periods.siegel.reducing_pairs import pairwise_reduction

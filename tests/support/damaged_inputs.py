@@ -8,8 +8,8 @@ import warnings
 
 import numpy as np
 from hypothesis import strategies as st
-from mesh_files import cube, fbx, glb, gltf, halved, obj, off, ply, stl, torus
-from random_surfaces import needle_gluing, random_gluing, random_lengths
+from support.mesh_files import cube, fbx, glb, gltf, halved, obj, off, ply, stl, torus
+from support.random_surfaces import needle_gluing, random_gluing, random_lengths
 
 _SEEDS = st.integers(0, 2**32 - 1)
 _TORUS, _CUBE = torus(3, 3), cube()

@@ -3,7 +3,8 @@
 from dataclasses import dataclass
 
 import numpy as np
-from random_surfaces import (
+from scipy.sparse import csr_array
+from support.random_surfaces import (
     BOLZA,
     L_SHAPE,
     noisy_torus,
@@ -11,7 +12,6 @@ from random_surfaces import (
     random_lengths,
     torus_grid,
 )
-from scipy.sparse import csr_array
 
 import igl_periods as ip
 from igl_periods.complexes.delaunay import intrinsic_delaunay

@@ -9,7 +9,7 @@ import warnings
 from pathlib import Path
 
 import numpy as np
-from random_surfaces import (
+from support.random_surfaces import (
     BOLZA,
     L_SHAPE,
     noisy_torus,

@@ -8,9 +8,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
-from modular_words import random_word
-from readers import READERS
-from result_checks import check_agreement, check_result
+from support.modular_words import random_word
+from support.result_checks import check_agreement, check_result
+from support.second_readers import READERS
 
 import igl_periods as ip
 from igl_periods.meshes.gluing_file import read_gluing

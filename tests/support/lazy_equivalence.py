@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from itertools import product
 
 import numpy as np
-from matching import energy, mobius
+from support.brute_force_equivalence import energy, mobius
 
 from igl_periods.siegel.reduction import siegel_reduce
 

@@ -131,3 +131,21 @@ def fbx(V, F) -> str:
 def written(path: Path, content: str | bytes) -> Path:
     path.write_bytes(content if isinstance(content, bytes) else content.encode())
     return path
+
+
+FORMS = {
+    "mesh.obj": obj,
+    "mesh.OFF": off,
+    "text.ply": ply,
+    "little.ply": lambda V, p: ply(V, p, "binary_little_endian"),
+    "big.ply": lambda V, p: ply(V, p, "binary_big_endian"),
+}
+
+
+TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+
+
+V4, F4 = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+
+
+GOOD_PLY = ply(V4, F4)

@@ -2,20 +2,18 @@
 
 from math import gcd
 
-import curve_periods
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from matching import energy, isomorphisms, mobius
+from support import quadrature_periods
+from support.brute_force_equivalence import energy, isomorphisms, mobius
 
 import igl_periods as ip
-from igl_periods.complexes.triangles import angles, double_areas
 from igl_periods.complexes.weights import cone_angles
 from igl_periods.siegel.reduction import siegel_reduce
 from igl_periods.surfaces import cyclic_cover, square_tiled_period_matrix
 from igl_periods.surfaces.cyclic_covers import centred, on_sphere
-from igl_periods.surfaces.sphere_meshes import refined_sphere
 
 
 def random_points(n, seed):
@@ -35,7 +33,7 @@ CURVES = {
 
 
 def reduced_periods(n, e, m=None):
-    return siegel_reduce(curve_periods.period_matrix(n, e, m)).matrix
+    return siegel_reduce(quadrature_periods.period_matrix(n, e, m)).matrix
 
 
 def distance(pm, exact, tolerance):
@@ -96,7 +94,7 @@ def test_multiplicities_matter():
     spectra = {}
     for m in ([1, 1, 1, 2, 2, 2], [1, 1, 1, 1, 1, 1], [2, 2, 2, 1, 1, 1]):
         pm = ip.period_matrix(cyclic_cover(3, e, m, 0.1, graded=True))
-        exact = curve_periods.period_matrix(3, e, m)
+        exact = quadrature_periods.period_matrix(3, e, m)
         assert pm.genus == len(exact) == 4
         spectra[tuple(m)] = invariants(pm.matrix)
         assert spectra[tuple(m)] == pytest.approx(invariants(exact), rel=0.02)
@@ -178,27 +176,6 @@ def test_centring_is_a_mobius_transformation():
     for k in range(4):
         same = cross_ratio(coordinate(after)[k : k + 4])
         assert same == pytest.approx(cross_ratio(x[k : k + 4]), rel=1e-11)
-
-
-@pytest.mark.parametrize("graded", [False, True])
-def test_meshes_are_fine_enough_and_well_shaped(graded):
-    seeds = centred(on_sphere(random_points(6, 4)))
-
-    def size(x):
-        distance = np.linalg.norm(x[:, None] - seeds, axis=2).min(axis=1)
-        return np.clip(0.3 * distance, 0.02, 0.3) if graded else np.full(len(x), 0.1)
-
-    V, F = refined_sphere(seeds, size)
-    K = ip.DeltaComplex.from_mesh(V, F)
-    assert (K.n_vertices, K.genus) == (len(V), 0)
-    assert np.array_equal(V[:6], seeds)
-    assert np.abs(np.linalg.norm(V, axis=1) - 1).max() < 1e-14
-    assert np.degrees(angles(K.lengths).min()) > 24
-    centre = np.cross(V[F[:, 1]] - V[F[:, 0]], V[F[:, 2]] - V[F[:, 0]])
-    centre /= np.linalg.norm(centre, axis=1, keepdims=True)
-    assert np.all(np.sum(centre * V[F[:, 0]], axis=1) > 0)  # outward
-    radius = np.prod(K.lengths, axis=1) / (2 * double_areas(K.lengths))
-    assert np.all(radius <= size(centre) * (1 + 1e-9))
 
 
 def test_wrong_covers_are_refused():

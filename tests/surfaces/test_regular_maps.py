@@ -1,10 +1,10 @@
 """Regular maps: combinatorics, exact period matrices by two routes, convergence."""
 
-import curve_periods
 import numpy as np
 import pytest
 from flint import acb
-from markings import in_basis_of, isomorphisms
+from support import quadrature_periods
+from support.lazy_equivalence import in_basis_of, isomorphisms
 
 import igl_periods as ip
 from igl_periods.complexes.weights import cone_angles
@@ -19,10 +19,13 @@ KLEIN_FACES = """
 3,14,15 15,14,8 3,15,16 16,15,22 3,16,17 17,16,20 4,17,10 4,10,18 18,10,22 4,18,19 19,18,21 5,19,13
 5,13,9 9,13,22 5,9,20 6,20,16 6,16,12 12,16,22 6,12,21 7,21,18 7,18,15 15,18,22 19,21,23 23,21,11
 19,23,14 14,23,8 8,23,20 20,23,17 17,23,11"""
+
+
 DYCK_FACES = """
 0,1,2 1,0,8 2,1,11 0,2,3 3,2,9 0,3,4 4,3,11 0,4,5 5,4,9 0,5,6 6,5,11 0,6,7 7,6,9 0,7,8 8,7,11
 1,8,9 9,8,3 1,9,6 1,6,10 10,6,3 1,10,4 4,10,7 1,4,11 2,11,7 2,7,10 2,10,5 5,10,8 2,5,9 8,10,3
 5,8,11 6,11,3 4,7,9"""
+
 
 # Klein: z ↦ 1 − 1/z and z ↦ −1/z on P¹(F₇); Bolza: [[0, 1], [2, 2]] and diag(1, 2) on F₃² ∖ 0.
 GENERATORS = {
@@ -113,7 +116,7 @@ def test_symplectic_mean_converges_with_order_two_where_they_do_not(name, errors
 )
 def test_exact_matrices_are_the_periods_of_the_curves(name, n, points, multiplicities):
     exact = regular_map_period_matrix(name)
-    by_quadrature = curve_periods.period_matrix(n, points, multiplicities)
+    by_quadrature = quadrature_periods.period_matrix(n, points, multiplicities)
     size = 2 if len(exact) < 3 else 1
     assert np.abs(in_basis_of(exact, by_quadrature, 1e-9, size) - exact).max() < 2e-13
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from matching import mobius
+from support.brute_force_equivalence import mobius
 
 import igl_periods as ip
 from igl_periods.complexes.weights import cone_angles

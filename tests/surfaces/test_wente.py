@@ -10,6 +10,7 @@ from igl_periods.surfaces import wente_immersion, wente_modulus, wente_periods, 
 
 FAMILIES = [(3, 1), (2, 1), (4, 1), (5, 1), (5, 2), (5, 3), (7, 3), (9, 8)]
 
+
 # Distances |τ − τ_w| in the marking of the grid: mean, symplectic mean, primal, dual.
 # Regression values of an independent computation on the same meshes.
 INTRINSIC = {
@@ -19,6 +20,8 @@ INTRINSIC = {
     80: ["8.21e-05", "8.11e-05", "2.01e-03", "2.08e-03"],
     160: ["2.01e-05", "2.00e-05", "5.04e-04", "5.20e-04"],
 }
+
+
 EXTRINSIC = {
     10: ["1.33e-02", "1.08e-02", "8.22e-02", "9.98e-02"],
     20: ["5.80e-03", "5.69e-03", "1.96e-02", "2.46e-02"],

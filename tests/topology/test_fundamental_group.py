@@ -1,61 +1,22 @@
-"""Fundamental polygon, shortest loops, cycles on Γ and Γ*: combinatorics, and brute force."""
+"""The fundamental polygon and the shortest loops: combinatorics, and brute force."""
 
 import heapq
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from delaunay_surfaces import distorted, flat_torus, random_surface
-from random_surfaces import BOLZA, HEXAGON, L_SHAPE, noisy_torus
-from scipy.sparse import csr_array
+from support.delaunay_surfaces import flat_torus
+from support.random_surfaces import L_SHAPE
+from support.walked_surfaces import SURFACES, edge_lengths, free_reduction
 
 import igl_periods as ip
 from igl_periods.complexes.cochains import walk_cochain
 from igl_periods.complexes.half_edges import half_edge_ends, walk_vertices
-from igl_periods.symplectic.canonical_basis import standard_form
 from igl_periods.topology.cohomology import cotree_cochains, pairing
 from igl_periods.topology.cycles import rooted_loops
-from igl_periods.topology.dual_cycles import crossing_cochain, dual_homology_basis, dual_walk
+from igl_periods.topology.dual_cycles import dual_homology_basis
 from igl_periods.topology.fundamental_group import fundamental_polygon, shortest_loops, word_pairing
-from igl_periods.topology.spanning_trees import shortest_tree_cotree, tree_cotree
-
-SURFACES = {
-    "one vertex": ip.DeltaComplex.from_squares(L_SHAPE, 1),
-    "hexagon squares": ip.DeltaComplex.from_squares(HEXAGON, 2),
-    "distorted L": distorted(L_SHAPE, 3, 0.15, 0),
-    "distorted Bolza": distorted(BOLZA, 2, 0.15, 1),
-    "noisy torus": ip.DeltaComplex.from_mesh(*noisy_torus(6, 5, 0.2, 4)),
-    "sphere": ip.DeltaComplex.from_lengths(
-        np.ones((4, 3)), [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]]
-    ),
-    **{f"random gluing {n}": random_surface(n, n) for n in (2, 4, 8, 16, 40, 100)},
-}
-
-
-@pytest.fixture(params=SURFACES)
-def K(request):
-    return SURFACES[request.param]
-
-
-@pytest.fixture(params=["breadth first", "shortest"])
-def trees(request, K):
-    root = K.n_vertices - 1
-    return (
-        tree_cotree(K, root) if request.param == "breadth first" else shortest_tree_cotree(K, root)
-    )
-
-
-def free_reduction(K, walk, cyclic=True):
-    """A walk without passages to and fro."""
-    twin, reduced = K.twin.ravel(), []
-    for half_edge in walk:
-        if reduced and reduced[-1] == twin[half_edge]:
-            reduced.pop()
-        else:
-            reduced.append(int(half_edge))
-    while cyclic and len(reduced) > 1 and reduced[0] == twin[reduced[-1]]:
-        reduced = reduced[1:-1]
-    return reduced
+from igl_periods.topology.spanning_trees import tree_cotree
 
 
 def canonical_rotation(cycle):
@@ -64,8 +25,6 @@ def canonical_rotation(cycle):
 
 
 # The fundamental polygon.
-
-
 def test_boundary_of_the_polygon(K, trees):
     polygon = fundamental_polygon(K, trees)
     tail, head = half_edge_ends(K)
@@ -139,15 +98,6 @@ def test_trees_that_do_not_leave_a_disc_are_refused(K):
         fundamental_polygon(K, replace(trees, face_parent=cut))
 
 
-# Shortest loops.
-
-
-def edge_lengths(K):
-    lengths = np.empty(K.n_edges)
-    lengths[K.edge] = K.lengths
-    return lengths
-
-
 def lengths_of(K, loops, lengths=None):
     lengths = edge_lengths(K) if lengths is None else lengths
     return np.array([lengths[K.edge.ravel()[loop]].sum() for loop in loops])
@@ -167,43 +117,6 @@ def test_loops_are_rooted_closed_and_generate_homology(K):
         passed = np.array([walk_cochain(K, loop) for loop in loops]).reshape(-1, K.n_edges)
         classes = ip.cohomology_basis(K) @ passed.T
         assert round(abs(np.linalg.det(classes.astype(float)))) == 1
-
-
-def test_tree_and_cotree_span_and_do_not_cross(K):
-    trees = shortest_tree_cotree(K, K.n_vertices // 2)
-    edge = K.edge.ravel()
-    in_tree = edge[trees.vertex_parent[trees.vertex_parent >= 0]]
-    in_cotree = edge[trees.face_parent[trees.face_parent >= 0]]
-    both = np.concatenate([in_tree, in_cotree, edge[trees.generators]])
-    assert (in_tree.size, in_cotree.size) == (K.n_vertices - 1, K.n_faces - 1)
-    assert np.array_equal(np.sort(both), np.arange(K.n_edges))
-    tail, head = half_edge_ends(K)
-    twin, reached = K.twin.ravel(), np.flatnonzero(trees.vertex_parent >= 0)
-    assert np.array_equal(head[trees.vertex_parent[reached]], reached)
-    left = np.flatnonzero(trees.face_parent >= 0)
-    assert np.array_equal(trees.face_parent[left] // 3, left)
-    # Both lead to their roots.
-    vertex, face = np.arange(K.n_vertices), np.arange(K.n_faces)
-    for _ in range(K.n_vertices + K.n_faces):
-        parent = trees.vertex_parent[vertex]
-        vertex = np.where(parent >= 0, tail[parent], vertex)
-        parent = trees.face_parent[face]
-        face = np.where(parent >= 0, twin[parent] // 3, face)
-    assert np.array_equal(vertex, np.full(K.n_vertices, K.n_vertices // 2))
-    assert not face.any()
-
-
-def test_tree_paths_are_shortest(K):
-    # Second route: relaxation of all edges until nothing changes.
-    trees, lengths = shortest_tree_cotree(K, 0), edge_lengths(K)[K.edge.ravel()]
-    tail, head = half_edge_ends(K)
-    distance = np.where(np.arange(K.n_vertices) == 0, 0.0, np.inf)
-    for _ in range(K.n_vertices):
-        np.minimum.at(distance, head, distance[tail] + lengths)
-    along_tree = trees.vertex_parent[1:]
-    np.testing.assert_allclose(
-        distance[1:], distance[tail[along_tree]] + lengths[along_tree], rtol=1e-14
-    )
 
 
 def shortest_independent_loops(K, root, lengths):
@@ -288,69 +201,3 @@ def test_surfaces_that_are_not_closed_are_refused():
     for function in (fundamental_polygon, shortest_loops, dual_homology_basis):
         with pytest.raises(ip.ComplexError, match="not closed"):
             function(K)
-
-
-# Cycles on Γ and on Γ*.
-
-
-def test_dual_cycles_are_closed_walks_of_faces(K):
-    twin = K.twin.ravel()
-    for walk in dual_homology_basis(K):
-        assert walk.size
-        assert np.array_equal(twin[walk] // 3, np.roll(walk, -1) // 3)
-        assert free_reduction(K, walk) == walk.tolist()
-
-
-@pytest.mark.parametrize("name", [name for name in SURFACES if name != "random gluing 100"])
-def test_intersection_numbers(name):
-    # Every passage of a cycle on Γ over an edge is compared with every crossing of that edge by
-    # a cycle on Γ*, one by one.  a_i·b_j = δ_ij = −b_i·a_j, and all others are 0.
-    def crossings(dual, walk):
-        twin, total = K.twin.ravel(), 0
-        for leaves in dual:
-            total += np.count_nonzero(walk == leaves) - np.count_nonzero(walk == twin[leaves])
-        return total
-
-    K = SURFACES[name]
-    for root in (0, K.n_vertices - 1):
-        cycles, dual = ip.homology_basis(K, root), dual_homology_basis(K, root)
-        numbers = [[crossings(d, c) for c in cycles] for d in dual]
-        expected = standard_form(K.genus)
-        assert np.array_equal(np.reshape(numbers, expected.shape), expected)
-
-
-def test_dual_cycles_are_poincare_dual_to_the_cohomology_basis(K):
-    # The crossing cochains of a_i, b_i are closed, and cohomologous to β_i, −α_i; and
-    # ∫ β_i ∧ α_j = −δ_ij = ∫ −α_i ∧ β_j.
-    g, basis = K.genus, ip.cohomology_basis(K)
-    crossing = [crossing_cochain(K, walk) for walk in dual_homology_basis(K)]
-    cochains = csr_array(np.reshape(crossing, (2 * g, K.n_edges)))
-    assert not (K.sign * cochains.toarray()[:, K.edge]).sum(axis=2).any()
-    assert np.array_equal(pairing(K, cochains, basis), -np.eye(2 * g))
-
-
-def test_a_loop_around_a_vertex_becomes_one_around_it_or_nothing():
-    # Around vertex 0 clockwise, left is outside; counterclockwise it is the fan of vertex 0.
-    K = ip.DeltaComplex.from_mesh(*noisy_torus(8, 7, 0.05, 0))
-    f, s = np.nonzero(K.corner_vertex == 0)
-    around = {int(t): 3 * int(i) + int(j) for i, j, t in zip(
-        f, s, half_edge_ends(K)[0][3 * f + s])}  # fmt: skip
-    walk, vertex = [], next(iter(around))
-    head = half_edge_ends(K)[1]
-    while not walk or vertex != half_edge_ends(K)[0][walk[0]]:
-        walk.append(around[vertex])
-        vertex = int(head[walk[-1]])
-    inside = dual_walk(K, np.array(walk))
-    assert sorted(inside // 3) == sorted(f)
-    outside = dual_walk(K, K.twin.ravel()[np.array(walk)[::-1]])
-    assert not set(outside // 3) & set(f)
-    for dual in (inside, outside):
-        pairs = pairing(K, csr_array(crossing_cochain(K, dual)[None]), ip.cohomology_basis(K))
-        assert not pairs.any()
-
-
-def test_walks_that_are_not_closed_are_refused():
-    K = ip.DeltaComplex.from_mesh(*noisy_torus(6, 5, 0.1, 0))
-    walk = ip.homology_basis(K)[0]
-    with pytest.raises(ip.ComplexError, match="the walk is not closed"):
-        dual_walk(K, walk[:-1])

@@ -6,11 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from matching import isomorphisms
+from support.brute_force_equivalence import isomorphisms
 
 import igl_periods as ip
 
-DATA = Path(__file__).parents[1] / "data"
+DATA = Path(__file__).parents[2] / "data"
+
+
 # What is left of the difference to the exact matrix: nothing where symmetries determine the surface
 # (lengths are rounded to ten decimals), else the distance of the mesh from the smooth surface.
 TOLERANCES = {
@@ -28,7 +30,7 @@ TOLERANCES = {
 
 @pytest.fixture
 def make_data(monkeypatch):
-    monkeypatch.syspath_prepend(DATA.parent / "scripts")
+    monkeypatch.syspath_prepend(DATA.parent / "scripts" / "data")
     import make_data
 
     return make_data

@@ -8,33 +8,37 @@ and what text files and tables of bytes say is read by a second, simpler reader 
 import os
 import time
 
-import damage
 import numpy as np
 import pytest
-import verdicts
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
-from judging import DOCUMENTED, Judge
+from support import damaged_inputs, documented_outcomes
+from support.separate_process import DOCUMENTED, Judge
 
 HOLES = st.sampled_from([0, 4, 100])
 
+
 # Kind of example: a strategy, and how many examples the default and the slow suite judge.
 KINDS = {
-    "file": (st.tuples(damage.files(), st.booleans(), HOLES), 120, 5000),
-    "Open3D file": (st.tuples(damage.files(damage.OPEN3D), st.booleans(), HOLES), 40, 1000),
-    "mesh": (damage.meshes(), 40, 1500),
-    "repair": (st.tuples(damage.meshes(), HOLES), 40, 1000),
-    "lengths": (damage.lengths(), 40, 500),
-    "gluing": (damage.gluings(), 40, 1500),
-    "needles": (damage.needles(), 20, 1000),
-    "weights": (damage.gluings(), 60, 500),
-    "squares": (damage.squares(), 40, 500),
+    "file": (st.tuples(damaged_inputs.files(), st.booleans(), HOLES), 120, 5000),
+    "Open3D file": (
+        st.tuples(damaged_inputs.files(damaged_inputs.OPEN3D), st.booleans(), HOLES),
+        40,
+        1000,
+    ),
+    "mesh": (damaged_inputs.meshes(), 40, 1500),
+    "repair": (st.tuples(damaged_inputs.meshes(), HOLES), 40, 1000),
+    "lengths": (damaged_inputs.lengths(), 40, 500),
+    "gluing": (damaged_inputs.gluings(), 40, 1500),
+    "needles": (damaged_inputs.needles(), 20, 1000),
+    "weights": (damaged_inputs.gluings(), 60, 500),
+    "squares": (damaged_inputs.squares(), 40, 500),
 }
 
 
 @pytest.fixture(scope="module")
 def judge():
-    judge = Judge(verdicts.verdict)
+    judge = Judge(documented_outcomes.verdict)
     yield judge
     judge.close()
 

@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from random_surfaces import needle_gluing, noisy_torus, random_gluing, random_lengths
-from result_checks import check_result
+from support.random_surfaces import needle_gluing, noisy_torus, random_gluing, random_lengths
+from support.result_checks import check_result
 
 import igl_periods as ip
 
 many = settings(max_examples=300, deadline=None, suppress_health_check=list(HealthCheck))
+
+
 seeds = st.integers(0, 2**32 - 1)
 
 

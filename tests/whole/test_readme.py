@@ -6,7 +6,9 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
+
+
 BLOCKS = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), flags=re.DOTALL)
 
 
@@ -26,7 +28,7 @@ def test_commands_of_the_readme_exist(command):
 
 
 def test_tables_are_those_of_the_measurements(monkeypatch):
-    monkeypatch.syspath_prepend(ROOT / "scripts")
+    monkeypatch.syspath_prepend(ROOT / "scripts" / "measure")
     monkeypatch.setattr("sys.argv", ["readme_tables.py", "--check"])
     with pytest.raises(SystemExit) as end:
         importlib.import_module("readme_tables").main()

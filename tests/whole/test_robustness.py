@@ -13,7 +13,7 @@ import flint
 import numpy as np
 import pytest
 from flint import acb, arb
-from result_checks import check_result
+from support.result_checks import check_result
 
 import igl_periods as ip
 from igl_periods.complexes.glued_squares import squares

@@ -1,61 +1,32 @@
-"""Lawson's surfaces: minimal meshes in the 3-sphere, exact period matrices, convergence."""
+"""Lawson's surfaces: minimal, embedded, of genus mk; convergence to the exact matrix."""
 
 import igl
 import numpy as np
 import pytest
-from curve_periods import period_matrix as by_quadrature
-from markings import in_basis_of
-from matching import isomorphisms
+from support.lawson_convergence import errors, orders, segments_of
 
 import igl_periods as ip
 from igl_periods.complexes.triangles import angles, cotangents, double_areas
 from igl_periods.complexes.weights import cotan_weights
 from igl_periods.surfaces import (
     lawson_period_matrix,
-    lawson_period_matrix_in,
-    lawson_segments,
     lawson_sides,
     lawson_surface,
     lawson_surface_jittered,
     lawson_surface_poor,
     lawson_surface_voronoi,
-    square_tiled_period_matrix,
     stereographic,
 )
 from igl_periods.surfaces.lawson.plateau import laplacian, vertex_normals
-from igl_periods.surfaces.lawson.surface import discs
-from igl_periods.topology.cohomology import pairing
 
 ORDERS = [(1, 1), (2, 1), (1, 2), (3, 1), (2, 2), (3, 2), (3, 3), (4, 3)]
-
-
-def unity(n):
-    return np.exp(2j * np.pi * np.arange(n) / n)
 
 
 def area(V, F):
     return double_areas(igl.edge_lengths(V, F)).sum() / 2
 
 
-def segments_of(m, k, n):
-    return 2 * n if min(m, k) > 1 else n
-
-
-def errors(V, F, m, k, segments, **options):
-    """Largest errors of primal, symplectic mean, and the bound, in the marking of the mesh."""
-    pm = ip.period_matrix(V, F, **options)
-    exact = lawson_period_matrix_in(pm.complex, pm.cocycles, m, k, segments)
-    return np.array([np.abs(pm.primal - exact).max(), np.abs(pm.matrix - exact).max(), pm.bound])
-
-
-def orders(values, vertices):
-    """Orders in the mesh size h ~ V^(-1/2)."""
-    return -2 * np.diff(np.log(values)) / np.diff(np.log(vertices))
-
-
 # --- the meshes
-
-
 @pytest.mark.parametrize(("n", "vertices"), [(5, 298), (10, 1198), (14, 2350), (29, 10090)])
 def test_genus_two_surface(n, vertices):
     V, F = lawson_surface(2, 1, n)
@@ -115,22 +86,6 @@ def test_patterns(pattern):
     assert missing[0] > 2.8 * missing[1] > 0
 
 
-@pytest.mark.parametrize(("m", "k"), [(2, 1), (3, 2)])
-def test_discs_lie_in_their_tetrahedra(m, k):
-    # Inner vertices have arg z and arg w strictly between those of the corners of their disc, and
-    # different discs have different cells: no two can meet.
-    V, _ = lawson_surface(m, k, 4)
-    inside = V[lawson_sides(m, k, segments_of(m, k, 4)).max() + 1 :].reshape(
-        len(discs(m, k)), -1, 4
-    )
-    r = np.arctan2(inside[..., 1], inside[..., 0]) * (k + 1) / np.pi
-    s = np.arctan2(inside[..., 3], inside[..., 2]) * (m + 1) / np.pi
-    i, j = (np.array(index)[:, None] for index in zip(*discs(m, k), strict=True))
-    assert np.all(np.floor(r) % (2 * k + 2) == i)
-    assert np.all(np.floor(s) % (2 * m + 2) == j)
-    assert min(np.abs(r - np.round(r)).min(), np.abs(s - np.round(s)).min()) > 1e-3
-
-
 def test_exchanging_m_and_k_gives_a_congruent_surface():
     V, F = lawson_surface(3, 1, 5)
     W, G = lawson_surface(1, 3, 5)
@@ -168,62 +123,6 @@ def test_stereographic_image():
     assert factor.max() / factor.min() == pytest.approx(5.83, abs=0.01)
 
 
-# --- exact period matrices
-
-
-@pytest.mark.parametrize(("m", "k"), [*ORDERS, (6, 1), (1, 5)])
-def test_exact_matrices_are_siegel_points(m, k):
-    Pi = lawson_period_matrix(m, k)
-    assert Pi.shape == (m * k, m * k)
-    assert np.abs(Pi - Pi.T).max() < 1e-13
-    assert np.linalg.eigvalsh(Pi.imag).min() > 0.01
-
-
-def test_clifford_torus_is_square():
-    assert np.abs(lawson_period_matrix(1, 1) - 1j).max() < 1e-14
-
-
-def test_genus_two_surface_is_the_third_square_tiled_one():
-    exact = square_tiled_period_matrix("omega_3")
-    assert len(isomorphisms(lawson_period_matrix(2, 1), exact, 1e-12, size=4)) == 24
-
-
-@pytest.mark.parametrize(
-    ("m", "k", "size"), [(2, 1, 2), (3, 1, 1), (4, 1, 1), (2, 2, 1), (1, 3, 1)]
-)
-def test_exact_matrices_are_the_periods_of_the_curves(m, k, size):
-    # yⁿ = (x^M − 1)/(x^M + 1), M = m + 1, n = k + 1.
-    M, n = m + 1, k + 1
-    points = np.concatenate([unity(M), unity(M) * np.exp(1j * np.pi / M)])
-    curve = by_quadrature(n, points, [1] * M + [n - 1] * M)
-    exact = lawson_period_matrix(m, k)
-    assert np.abs(in_basis_of(exact, curve, 1e-9, size) - exact).max() < 1e-12
-
-
-def test_exact_matrix_follows_the_marking():
-    # Another root of the tree gives another basis; both are the same point of moduli space.
-    V, F = lawson_surface(3, 2, 2)
-    K = ip.DeltaComplex.from_mesh(V, F)
-    Pi = [
-        lawson_period_matrix_in(K, ip.cohomology_basis(K, root), 3, 2, segments=4)
-        for root in (0, 100)
-    ]
-    assert np.abs(Pi[0] - Pi[1]).max() > 0.1
-    alpha, beta = (ip.cohomology_basis(K, root) for root in (0, 100))
-    U = pairing(K, beta, alpha) @ np.kron([[0, -1], [1, 0]], np.eye(6, dtype=int))
-    assert np.array_equal((U @ alpha.toarray()).shape, beta.shape)
-    assert np.abs(change(U, Pi[0]) - Pi[1]).max() < 1e-11
-
-
-def change(U, Pi):
-    """The period matrix for the forms U (α, β), by the Möbius action of K U K."""
-    g = len(Pi)
-    K = np.diag([1] * g + [-1] * g)
-    gamma = K @ U @ K
-    a, b, c, d = gamma[:g, :g], gamma[:g, g:], gamma[g:, :g], gamma[g:, g:]
-    return (a @ Pi + b) @ np.linalg.inv(c @ Pi + d)
-
-
 @pytest.mark.parametrize(("m", "k"), [(2, 1), (3, 1), (2, 2), (3, 2), (3, 3), (4, 3)])
 def test_meshes_converge_to_the_exact_matrix_in_their_own_marking(m, k):
     values = [errors(*lawson_surface(m, k, n), m, k, segments_of(m, k, n)) for n in (3, 6)]
@@ -234,8 +133,6 @@ def test_meshes_converge_to_the_exact_matrix_in_their_own_marking(m, k):
 
 
 # --- convergence
-
-
 def test_primal_error_of_the_structured_family():
     # Regression values of an independent computation.
     sizes = {5: "8.2e-03", 10: "2.0e-03", 14: "1.0e-03", 29: "2.3e-04"}
@@ -254,76 +151,7 @@ def test_stereographic_images_converge_with_order_two():
     assert np.all(observed[:, :2] > 1.85)
 
 
-@pytest.mark.parametrize("seed", [0, 1])
-def test_jittered_family_converges_with_order_two(seed):
-    values = []
-    for n in (5, 10, 20):
-        V, F = lawson_surface_jittered(2, 1, n, seed=seed)
-        K = ip.DeltaComplex.from_mesh(V, F)
-        assert (K.n_vertices, K.genus) == (12 * n * n - 2, 2)
-        assert np.degrees(angles(K.lengths).min()) > 30
-        assert np.abs(np.linalg.norm(V, axis=1) - 1).max() < 1e-15
-        values.append(errors(V, F, 2, 1, n))
-    observed = np.log2(np.divide(values[:-1], values[1:]))
-    assert np.all(observed[:, [0, 2]] > 1.8)
-    assert 1e-6 < values[-1][1] < 2e-4  # no symmetry makes the symplectic mean exact
-
-
-def test_centroidal_family_converges_with_order_two():
-    values, sizes = [], (300, 1162)
-    for size in sizes:
-        V, F = lawson_surface_voronoi(2, 1, size, seed=3)
-        K = ip.DeltaComplex.from_mesh(V, F)
-        assert (K.n_vertices, K.genus) == (size, 2)
-        values.append(errors(V, F, 2, 1, lawson_segments(2, 1, size)))
-    primal, _, bound = np.array(values).T
-    assert orders(primal[[0, -1]], [sizes[0], sizes[-1]]) > 1.8
-    assert orders(bound[[0, -1]], [sizes[0], sizes[-1]]) > 1.8
-    assert values[-1][1] < 1e-3
-
-
-def test_jittered_surface_of_genus_four():
-    V, F = lawson_surface_jittered(2, 2, 4, seed=2)
-    primal, mean, _ = errors(V, F, 2, 2, 8)
-    assert primal < 1e-2
-    assert mean < 1e-3
-
-
-def test_intrinsic_delaunay_restores_the_convergence_of_poor_meshes():
-    # The more vertices, the longer and thinner the triangles: as the paper reports of its meshes.
-    kept, flipped, sizes = [], [], (600, 2498)
-    for size, stretch in zip(sizes, (1.0, 5.0), strict=True):
-        V, F = lawson_surface_poor(2, 1, size, stretch, seed=1)
-        K = ip.DeltaComplex.from_mesh(V, F)
-        assert (K.n_vertices, K.genus) == (size, 2)
-        assert angles(K.lengths).min() < np.radians(5)
-        segments = lawson_segments(2, 1, size)
-        kept.append(errors(V, F, 2, 1, segments, delaunay=False)[2])
-        flipped.append(errors(V, F, 2, 1, segments)[2])
-    assert orders(kept, sizes) < 0.2
-    assert orders(flipped, sizes) > 1.7
-
-
-def test_the_same_vertices_triangulated_well_converge():
-    # Stretched triangles lose the surface itself, which flips on them cannot bring back; the same
-    # seed without stretching joins the same vertices by a Delaunay triangulation.
-    size, segments = 2498, lawson_segments(2, 1, 2498)
-    poor, good = (lawson_surface_poor(2, 1, size, stretch, seed=1) for stretch in (4.0, 1.0))
-    assert np.array_equal(poor[0], good[0])
-    assert errors(*good, 2, 1, segments)[0] < 0.5 * errors(*poor, 2, 1, segments)[0]
-
-
-def test_random_meshes_are_reproducible():
-    for make in (lawson_surface_voronoi, lawson_surface_poor):
-        one, same, other = (make(2, 1, 100, seed=seed) for seed in (5, 5, 6))
-        assert np.array_equal(one[0], same[0])
-        assert np.array_equal(one[1], same[1])
-        assert not np.array_equal(one[0], other[0])
-
-
 # --- refusals
-
-
 @pytest.mark.parametrize(("m", "k"), [(0, 1), (1, 0), (-2, 1)])
 def test_orders_below_one_are_refused(m, k):
     V = np.eye(4)
@@ -353,12 +181,3 @@ def test_other_wrong_arguments_are_refused():
     for make in (lawson_surface_voronoi, lawson_surface_poor):
         with pytest.raises(ip.MeshError, match="for the inside of 12 discs; each needs 3"):
             make(2, 1, 40)
-
-
-def test_meshes_without_the_sides_are_refused():
-    V, F = lawson_surface(2, 1, 4)
-    pm = ip.period_matrix(V, F)
-    with pytest.raises(ip.ComplexError, match="has 190 vertices, and its sides would need"):
-        lawson_period_matrix_in(pm.complex, pm.cocycles, 2, 1, segments=20)
-    with pytest.raises(ip.ComplexError, match="no edges along the sides"):
-        lawson_period_matrix_in(pm.complex, pm.cocycles, 2, 1, segments=3)
