@@ -1,7 +1,7 @@
 """Write the small meshes of ``data/`` and their README; the same bytes every time.
 
-    python scripts/make_data.py
-    python scripts/make_data.py --output somewhere
+    python scripts/data/make_data.py
+    python scripts/data/make_data.py --output somewhere
 
 Numbers are rounded to ten decimals, so that the last bits of a processor's arithmetic do not show.
 """
@@ -37,7 +37,7 @@ SQUARES = {
 README = """\
 # Small surfaces with exactly known period matrices
 
-Written by `python scripts/make_data.py`; running it again gives the same files, byte for byte.
+Written by `python scripts/data/make_data.py`; running it again gives the same files, byte for byte.
 Coordinates and lengths are rounded to {decimals} decimals. A period matrix Π belongs to a marking,
 so a computed one agrees with the one given here up to the action of Sp(2g, Z).
 
@@ -65,7 +65,7 @@ square-tiled ones have it exactly, and the certified bound of a computation is a
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    default = Path(__file__).resolve().parent.parent / "data"
+    default = Path(__file__).resolve().parents[2] / "data"
     parser.add_argument("--output", type=Path, default=default, help="folder (default: data)")
     output = parser.parse_args().output
     output.mkdir(parents=True, exist_ok=True)

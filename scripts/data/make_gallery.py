@@ -1,7 +1,7 @@
 """Draw the pictures of the README from the meshes in data/.
 
-    python scripts/make_gallery.py            # writes data/gallery/*.png
-    python scripts/make_gallery.py FOLDER
+    python scripts/data/make_gallery.py            # writes data/gallery/*.png
+    python scripts/data/make_gallery.py FOLDER
 
 The canonical cycles of the reduced marking, the checkerboard of the holomorphic form of most even
 length with its zeros, and that length.
@@ -16,7 +16,7 @@ from igl_periods.differentials.parametrization import parametrize
 from igl_periods.pictures.rendering import render, save, with_legend
 from igl_periods.pictures.scenes import checkerboard_scene, cycles_scene, density_scene
 
-DATA = Path(__file__).resolve().parents[1] / "data"
+DATA = Path(__file__).resolve().parents[2] / "data"
 SIZE = (800, 600)
 # Of each mesh: the direction from the surface to the eye, and what to show.  The cycles of Wente's
 # torus run inside, where it passes through itself.

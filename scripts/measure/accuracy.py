@@ -1,7 +1,7 @@
 """Digits against unknowns and seconds: piecewise linear forms, their refinement, and high degree.
 
-    python scripts/accuracy.py                                   square-tiled surfaces
-    python scripts/accuracy.py eight.off fertility.off           and meshes
+    python scripts/measure/accuracy.py                                   square-tiled surfaces
+    python scripts/measure/accuracy.py eight.off fertility.off           and meshes
 
 For every surface: piecewise linear forms on the triangulation as it is and refined by midpoints,
 elements of degree p on flat triangles alone, and with conical elements at cone points.  The digits
@@ -11,13 +11,13 @@ are those of the certified bound, rounding included.  Writes a table, a CSV and 
 from __future__ import annotations
 
 import argparse
+import sys
 import time
 from functools import partial
 from pathlib import Path
 
 import igl
 import numpy as np
-import tables
 
 import igl_periods as ip
 from igl_periods.complexes.delaunay import intrinsic_delaunay
@@ -32,6 +32,9 @@ from igl_periods.elements.placement import flat_elements, separate_cones
 from igl_periods.harmonic.energies import linear_energies
 from igl_periods.periods.rounding import LEAST_ALLOWANCE
 from igl_periods.surfaces import square_tiled_surface
+
+sys.path.append(str(Path(__file__).resolve().parents[1] / "paper"))
+import tables
 
 METHODS = {
     "linear": "o-",

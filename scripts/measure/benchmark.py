@@ -4,11 +4,11 @@ Bare CHOLMOD is what nobody can avoid: analyse and factor the same Laplacian wit
 its orderings, and solve for 2g right-hand sides.  Each measurement runs in a process of its own
 (``measured_run.py``), the two in turn, and medians are compared.
 
-    python scripts/benchmark.py                              everything but digits
-    python scripts/benchmark.py speed --vertices 600000      two surfaces of genus 2
-    python scripts/benchmark.py growth                       from 10⁴ to 2·10⁶ vertices
-    python scripts/benchmark.py genus                        up to genus 1,521
-    python scripts/benchmark.py digits eight.off 3holes.obj  certified digits
+    python scripts/measure/benchmark.py                              everything but digits
+    python scripts/measure/benchmark.py speed --vertices 600000      two surfaces of genus 2
+    python scripts/measure/benchmark.py growth                       from 10⁴ to 2·10⁶ vertices
+    python scripts/measure/benchmark.py genus                        up to genus 1,521
+    python scripts/measure/benchmark.py digits eight.off 3holes.obj  certified digits
 
 Results go to ``results/benchmark.json``, one entry a section; ``readme_tables.py`` makes the tables
 of the README from it.

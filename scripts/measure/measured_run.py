@@ -1,8 +1,8 @@
 """One computation in a process of its own: its time, its stages and its peak memory, as JSON.
 
-    python scripts/measured_run.py period_matrix mesh.npz       V and F
-    python scripts/measured_run.py cholmod matrix.npz amd 4     a sparse matrix, 4 right-hand sides
-    python scripts/measured_run.py idle
+    python scripts/measure/measured_run.py period_matrix mesh.npz     V and F
+    python scripts/measure/measured_run.py cholmod matrix.npz amd 4   a sparse matrix, 4 right sides
+    python scripts/measure/measured_run.py idle
 
 The process of CHOLMOD imports nothing of the library, so that its memory is that of CHOLMOD.
 """

@@ -1,8 +1,8 @@
 """Write the tables of the README from the measurements of ``benchmark.py``.
 
-    python scripts/benchmark.py --json data/measurements/benchmark.json
-    python scripts/readme_tables.py                  from data/measurements/benchmark.json
-    python scripts/readme_tables.py --check
+    python scripts/measure/benchmark.py --json data/measurements/benchmark.json
+    python scripts/measure/readme_tables.py                  from data/measurements/benchmark.json
+    python scripts/measure/readme_tables.py --check
 
 Each table stands between two comments, ``<!-- speed -->`` and ``<!-- /speed -->``; the others are
 growth, genus and digits.  Sections that were not measured stay as they are.
@@ -14,7 +14,7 @@ import re
 import sys
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 README = ROOT / "README.md"
 
 

@@ -5,8 +5,8 @@ measured: iterations, seconds per iteration, and the memory that its largest par
 then takes from the largest of them the bytes and the seconds per owned vertex, and from all of
 them how the number of iterations grows.
 
-    mpiexec -n 1 python scripts/weak_scaling.py delaunay
-    mpiexec -n 2 python scripts/weak_scaling.py marching-cubes --vertices 600000
+    mpiexec -n 1 python scripts/measure/weak_scaling.py delaunay
+    mpiexec -n 2 python scripts/measure/weak_scaling.py marching-cubes --vertices 600000
 
 Seconds are those of the processor, which others on the machine disturb less than the clock; waiting
 for another rank counts, so those of one rank are the cleanest.  Memory

@@ -1,6 +1,6 @@
 """The table of section 4.3: Lawson's surface of genus 2, beside what we compute.
 
-    python scripts/reproduce_lawson.py --output results
+    python scripts/paper/reproduce_lawson.py --output results
 
 Writes lawson.csv, lawson.txt and lawson.png.  The paper's meshes are not public, so four families
 of our own stand for them: structured, jittered, centroidal Voronoi, and a poor one.  The exact

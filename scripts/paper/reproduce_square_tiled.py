@@ -1,6 +1,6 @@
 """The table of section 4.1: three square-tiled surfaces of genus 2, beside what we compute.
 
-    python scripts/reproduce_square_tiled.py --output results
+    python scripts/paper/reproduce_square_tiled.py --output results
 
 Writes square_tiled.csv, square_tiled.txt and square_tiled.png.  Every matrix is brought to the
 basis in which the paper gives the exact one.

@@ -1,6 +1,6 @@
 """The table of section 4.2: the Wente torus, beside what we compute.
 
-    python scripts/reproduce_wente.py --output results
+    python scripts/paper/reproduce_wente.py --output results
 
 Writes wente.csv, wente.txt and wente.png.  Moduli are compared in the marking of the grid, in which
 the exact one is known.
