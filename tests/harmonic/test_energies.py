@@ -1,6 +1,7 @@
 """Energies: against dense linear algebra, and in portions that change nothing."""
 
 import itertools
+import tracemalloc
 
 import numpy as np
 import pytest
@@ -15,11 +16,13 @@ from igl_periods.complexes.weights import cotan_weights
 from igl_periods.harmonic import energies as harmonic_energies
 from igl_periods.harmonic.energies import (
     dirichlet_matrix,
+    harmonic_problem,
     linear_energies,
     weighted_energies,
 )
-from igl_periods.harmonic.potentials import harmonic_potentials
+from igl_periods.harmonic.potentials import factored, harmonic_potentials
 from igl_periods.harmonic.rounding import geometric_allowance
+from igl_periods.surfaces import thickened_lattice
 from igl_periods.topology.cohomology import cochains_and_basis
 
 
@@ -70,6 +73,26 @@ def test_panels_give_the_same_energies(monkeypatch):
         panels = -(-len(whole) // width)
         assert len(columns) == panels * (panels + 1) // 2
         assert max(columns) == width
+
+
+def test_panels_hold_no_more_than_they_may():
+    K = ip.DeltaComplex.from_mesh(*thickened_lattice((4, 4, 4), 4, jitter=0.1))
+    cochains, _ = cochains_and_basis(K)
+    laplacian, problem = harmonic_problem(K, cochains)
+    factor = factored(laplacian)
+
+    def peak(memory):
+        tracemalloc.start()
+        harmonic_energies.harmonic_energies(problem, factor, memory)
+        _, most = tracemalloc.get_traced_memory()
+        tracemalloc.stop()
+        return most
+
+    n, k = problem.sources.shape
+    functions = 8 * n * k
+    saved = peak(None) - peak(functions / 3)
+    # All functions against two panels that together take a third.
+    assert 0.55 * functions < saved < 0.75 * functions
 
 
 @pytest.mark.parametrize(

@@ -28,7 +28,6 @@ def close(one, other):
     return np.abs(one - other).max(initial=0) < 1e-12 * size
 
 
-# Discrete holomorphic functions.
 def flat(n=7, m=6, noise=0.12):
     """A Delaunay triangulation of a flat torus without symmetry, and dz on the sides of ◊."""
     K, z = flat_torus(n, m, noise, 1)

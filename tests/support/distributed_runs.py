@@ -1,4 +1,4 @@
-"""Period matrices on several ranks, for test_distributed.py: ``mpiexec -n N python … FILE``.
+"""Period matrices on several ranks, for the tests of distributed/: ``mpiexec -n N python … FILE``.
 
 What every rank got is written to FILE, by rank 0, as a list with one dictionary for each rank.
 """

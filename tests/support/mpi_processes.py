@@ -5,9 +5,11 @@ import os
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
+TESTS = Path(__file__).parents[1]
 # Open MPI starts nothing as root, and no more ranks than there are cores, unless told to.
 MPI_ENVIRONMENT = {
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
@@ -31,9 +33,14 @@ def mpiexec(n, *arguments):
         capture_output=True,
         text=True,
         timeout=300,
-        env=os.environ | MPI_ENVIRONMENT,
+        env=os.environ | MPI_ENVIRONMENT | {"PYTHONPATH": _with_tests()},
         check=False,
     )
+
+
+def _with_tests():
+    """The path of modules on which the tests find their helpers."""
+    return os.pathsep.join(filter(None, [str(TESTS), os.environ.get("PYTHONPATH")]))
 
 
 class OneRank:

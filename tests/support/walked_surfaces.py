@@ -32,7 +32,6 @@ def free_reduction(K, walk, cyclic=True):
     return reduced
 
 
-# Shortest loops.
 def edge_lengths(K):
     lengths = np.empty(K.n_edges)
     lengths[K.edge] = K.lengths
