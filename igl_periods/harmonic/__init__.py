@@ -38,6 +38,7 @@ from .energies import (
     dirichlet_matrix,
     harmonic_energies,
     harmonic_problem,
+    HarmonicProblem,
     linear_energies,
     weighted_energies,
 )
@@ -49,9 +50,8 @@ from .harmonic_cochains import (
     side_matrix,
 )
 from .constant_forms import face_areas, linear_parts, spread_to_vertices
-from .excess import energy_excess
+from .excess import energy_excess, most_of
 from .rounding import (
-    POWER_STEPS,
     TRIANGLE_ERROR,
     ULP,
     allowance_for_loss,
@@ -73,6 +73,7 @@ __all__ = [
     "dirichlet_matrix",
     "harmonic_energies",
     "harmonic_problem",
+    "HarmonicProblem",
     "linear_energies",
     "weighted_energies",
     "checked_basis",
@@ -84,10 +85,10 @@ __all__ = [
     "linear_parts",
     "spread_to_vertices",
     "energy_excess",
+    "most_of",
     "allowance_for_loss",
     "extreme_sensitivity",
     "geometric_allowance",
-    "POWER_STEPS",
     "TRIANGLE_ERROR",
     "ULP",
 ]

@@ -14,6 +14,7 @@ estimate (the hypercircle of Prager and Synge).
 References
 ----------
 Prager, Synge, "Approximations in elasticity based on the concept of function space" (1947).
+Dörfler, "A convergent adaptive algorithm for Poisson's equation" (1996).
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csr_array
 
-from igl_periods.arrays import Floats
+from igl_periods.arrays import Floats, Ints
 from igl_periods.complexes import DeltaComplex, edge_ends
 from igl_periods.symplectic import williamson_basis
 
@@ -56,3 +57,10 @@ def energy_excess(K: DeltaComplex, cochains: csr_array, potentials: Floats, D: F
         x, y = gradients(K, (by_edge @ pair.T + f[head] - f[tail]).T)
         share[:] = 0.5 * area * np.abs(x + 1j * y) ** 2
     return shares
+
+
+def most_of(excess: Floats, part: float) -> Ints:
+    """The fewest faces that hold this part of the excess, the worst first (Dörfler's marking)."""
+    order = np.argsort(-excess, kind="stable")
+    held = np.cumsum(excess[order])
+    return order[: 1 + int(np.searchsorted(held, part * held[-1]))]

@@ -37,7 +37,7 @@ ULP = 0.5 * float(np.finfo(np.float64).eps)
 TRIANGLE_ERROR = 8 * ULP
 # Faces up to this sensitivity are taken together: most are far below it.
 _ORDINARY = 100.0
-POWER_STEPS = 30
+_POWER_STEPS = 30
 
 
 def rounding_sensitivity(K: DeltaComplex) -> Floats:
@@ -90,7 +90,7 @@ def _largest_eigenvalue(W: Floats) -> float:
     r is above it: much cheaper than eigenvalues.  At the latest the largest row sum is above.
     """
     row_sum, v = float(np.abs(W).sum(axis=1).max()), W[:, np.argmax(np.diag(W))]
-    for _ in range(POWER_STEPS):
+    for _ in range(_POWER_STEPS):
         v = W @ (v / np.linalg.norm(v))
     r = 1.05 * float(np.linalg.norm(v))
     while r < row_sum:

@@ -19,10 +19,11 @@ import scipy.linalg
 from numpy.typing import NDArray
 
 from igl_periods.arrays import Floats
-from igl_periods.harmonic import POWER_STEPS, TRIANGLE_ERROR, ULP
+from igl_periods.harmonic import TRIANGLE_ERROR, ULP
 from igl_periods.symplectic import cholesky_factor
 
 LEAST_ALLOWANCE = 1e-13
+_POWER_STEPS = 30
 
 
 def combined(one: float, other: float) -> float:
@@ -85,7 +86,7 @@ def _skew_norm(R: Floats) -> float:
     comes from a few steps of the power method for 1 + M / ‖M‖, which stays positive.
     """
     (top, bottom), v, bound = np.split(R, 2), np.ones(len(R)), np.inf
-    for _ in range(POWER_STEPS):
+    for _ in range(_POWER_STEPS):
         image = top.T @ (bottom @ v) + bottom.T @ (top @ v)
         bound = min(bound, float((image / v).max()))
         v = v / v.max() + image / image.max()

@@ -30,7 +30,7 @@ Eppstein, "Dynamic generators of topologically embedded graphs" (2003).
 """
 
 from .spanning_trees import tree_cotree
-from .cohomology import cochains_and_basis, cohomology_basis, pairing
+from .cohomology import cochains_and_basis, cohomology_basis, mark, pairing
 from .cycles import homology_basis
 from .short_cycles import canonical_cycles
 from .dual_cycles import dual_homology_basis
@@ -41,6 +41,7 @@ __all__ = [
     "tree_cotree",
     "cochains_and_basis",
     "cohomology_basis",
+    "mark",
     "pairing",
     "homology_basis",
     "canonical_cycles",
