@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from modular_words import random_point, random_word
 
-from igl_periods.errors import EnumerationLimitError, NotASiegelPointError
+from igl_periods.errors import EnumerationLimitError, NotASiegelPointError, NotPositiveDefiniteError
 from igl_periods.siegel.enumeration import short_vectors
 from igl_periods.siegel.half_space import (
     check_siegel_point,
@@ -508,7 +508,7 @@ def test_lattices_far_from_round(Y):
 )
 def test_lattices_that_are_none(Y, message):
     # In FLINT a form that is not positive definite would end the process.
-    with pytest.raises(NotASiegelPointError, match=message):
+    with pytest.raises(NotPositiveDefiniteError, match=message):
         lll_basis(np.array(Y))
 
 

@@ -66,7 +66,7 @@ from .marked_complex import MarkedComplex
 from .delaunay import cocircularity_allowance, delaunay_flips, intrinsic_delaunay, transport
 from .midpoint_subdivision import split
 from .barycentre_insertion import insert_barycentres
-from .doubling import double, involution
+from .doubling import Involution, double, involution, lift
 
 __all__ = [
     "angles",
@@ -111,4 +111,6 @@ __all__ = [
     "insert_barycentres",
     "double",
     "involution",
+    "lift",
+    "Involution",
 ]

@@ -32,7 +32,7 @@ Chen, Davis, Hager, Rajamanickam, "Algorithm 887: CHOLMOD" (2008).
 """
 
 from .laplace_matrix import laplacian, outflow
-from .cholmod import CholeskyFactor, NotPositiveDefiniteError, factor, solve
+from .cholmod import CholeskyFactor, factor, solve
 from .potentials import factored, factored_laplacian, harmonic_potentials, solutions
 from .energies import (
     dirichlet_matrix,
@@ -52,6 +52,7 @@ from .harmonic_cochains import (
 from .constant_forms import face_areas, linear_parts, spread_to_vertices
 from .excess import energy_excess, most_of
 from .rounding import (
+    energy_factor,
     TRIANGLE_ERROR,
     ULP,
     allowance_for_loss,
@@ -64,7 +65,6 @@ __all__ = [
     "outflow",
     "factored_laplacian",
     "CholeskyFactor",
-    "NotPositiveDefiniteError",
     "factor",
     "solve",
     "factored",
@@ -85,6 +85,7 @@ __all__ = [
     "linear_parts",
     "spread_to_vertices",
     "energy_excess",
+    "energy_factor",
     "most_of",
     "allowance_for_loss",
     "extreme_sensitivity",

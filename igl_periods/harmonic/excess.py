@@ -27,6 +27,7 @@ from igl_periods.complexes import DeltaComplex, edge_ends
 from igl_periods.symplectic import williamson_basis
 
 from .constant_forms import face_areas, gradients
+from .rounding import energy_factor
 
 
 def energy_excess(K: DeltaComplex, cochains: csr_array, potentials: Floats, D: Floats) -> Floats:
@@ -48,7 +49,7 @@ def energy_excess(K: DeltaComplex, cochains: csr_array, potentials: Floats, D: F
     (g, m) float
         Row i adds up to d_i − 1, where d is decreasing.
     """
-    pairs = williamson_basis(D)
+    pairs = williamson_basis(energy_factor(D))
     shares = np.empty((len(pairs), K.n_faces))
     area, (tail, head) = face_areas(K), edge_ends(K)
     by_edge = csr_array(cochains.T)

@@ -31,6 +31,7 @@ import scipy.linalg
 
 from igl_periods.arrays import Floats
 from igl_periods.complexes import DeltaComplex, length_sensitivity
+from igl_periods.errors import ComplexError, NotPositiveDefiniteError
 from igl_periods.symplectic import cholesky_factor
 
 ULP = 0.5 * float(np.finfo(np.float64).eps)
@@ -70,6 +71,24 @@ def extreme_sensitivity(K: DeltaComplex) -> Floats:
     return np.where(sensitivity > _ORDINARY, sensitivity, 0.0)
 
 
+def energy_factor(D: Floats) -> Floats:
+    """The Cholesky factor of energies of harmonic forms.
+
+    Raises
+    ------
+    ComplexError
+        If they are not positive definite.
+    """
+    try:
+        return cholesky_factor(D)
+    except NotPositiveDefiniteError as error:
+        raise ComplexError(
+            f"the energy of the harmonic forms is {error}. Weights that are no energy do this, for "
+            "instance negative ones; so do surfaces too extreme for double precision, with "
+            "necks thinner than about 1e-7 of their length."
+        ) from error
+
+
 def allowance_for_loss(D: Floats, loss: Floats) -> float:
     """Relative error of D, from the sum of s_f D_f over the faces of extreme sensitivity s_f.
 
@@ -77,7 +96,7 @@ def allowance_for_loss(D: Floats, loss: Floats) -> float:
     """
     if not loss.any():
         return TRIANGLE_ERROR * _ORDINARY
-    R = cholesky_factor(D)
+    R = energy_factor(D)
     half = scipy.linalg.solve_triangular(R, loss, lower=True)
     whole = scipy.linalg.solve_triangular(R, half.T, lower=True)
     return TRIANGLE_ERROR * (_ORDINARY + _largest_eigenvalue(whole))

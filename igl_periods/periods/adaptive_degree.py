@@ -41,7 +41,7 @@ from igl_periods.elements import (
     separate_cones,
 )
 from igl_periods.errors import ComplexError
-from igl_periods.harmonic import linear_energies, most_of
+from igl_periods.harmonic import energy_factor, linear_energies, most_of
 from igl_periods.memory import available_memory
 from igl_periods.run_log import logger
 from igl_periods.symplectic import williamson_basis
@@ -199,7 +199,7 @@ def _carried_out(plan: Plan, certify: Certify, tolerance: float) -> Attempt | st
 
 def _excess(forms: HighOrderForms, where: MarkedComplex, result: PeriodMatrix) -> Floats:
     """The shares of the faces before cone points were separated."""
-    pairs = williamson_basis(result.dirichlet) @ where.basis
+    pairs = williamson_basis(energy_factor(result.dirichlet)) @ where.basis
     shares = energy_excess(forms, pairs).sum(axis=0)
     return np.asarray(shares.reshape(where.complex.n_faces, -1).sum(axis=1))
 
