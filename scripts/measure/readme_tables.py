@@ -1,14 +1,17 @@
-"""Write the tables of the README from the measurements of ``benchmark.py``.
+"""Write the tables of the README: measurements of ``benchmark.py``, and the packages.
 
     python scripts/measure/benchmark.py --json data/measurements/benchmark.json
     python scripts/measure/readme_tables.py                  from data/measurements/benchmark.json
     python scripts/measure/readme_tables.py --check
 
 Each table stands between two comments, ``<!-- speed -->`` and ``<!-- /speed -->``; the others are
-growth, genus and digits.  Sections that were not measured stay as they are.
+Each table stands between two comments, ``<!-- speed -->`` and ``<!-- /speed -->``; the others are
+growth, genus, digits, and packages, which is made of the first lines of their faces.  Sections that
+were not measured stay as they are.
 """
 
 import argparse
+import ast
 import json
 import re
 import sys
@@ -16,6 +19,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 README = ROOT / "README.md"
+SOURCE = ROOT / "igl_periods"
 
 
 def speed(rows):
@@ -81,6 +85,18 @@ def digits(rows):
         )
 
 
+def packages():
+    """The packages in reading order, and the first lines of their faces."""
+    order = re.findall(
+        r"``(\w+)``", ast.get_docstring(ast.parse((SOURCE / "__init__.py").read_text()))
+    )
+    yield "package", "what is in it"
+    for name in (name for name in order if (SOURCE / name / "__init__.py").exists()):
+        face = ast.get_docstring(ast.parse((SOURCE / name / "__init__.py").read_text("utf-8")))
+        summary = face.splitlines()[0].rstrip(".").replace("``", "`")
+        yield f"[`{name}/`](igl_periods/{name}/__init__.py)", summary
+
+
 TABLES = {"speed": speed, "growth": growth, "genus": genus, "digits": digits}
 
 
@@ -98,12 +114,13 @@ def main():
     parser.add_argument("--check", action="store_true", help="write nothing; fail on differences")
     options = parser.parse_args()
     text = before = README.read_text(encoding="utf-8")
-    for name, section in json.loads(options.json.read_text(encoding="utf-8")).items():
-        if name in TABLES:
-            table = f"<!-- {name} -->\n{markdown(TABLES[name](section))}\n<!-- /{name} -->"
-            text = re.sub(
-                rf"<!-- {name} -->.*?<!-- /{name} -->", lambda _, new=table: new, text, flags=re.S
-            )
+    measured = json.loads(options.json.read_text(encoding="utf-8")).items()
+    tables = {name: TABLES[name](section) for name, section in measured if name in TABLES}
+    for name, rows in {"packages": packages(), **tables}.items():
+        table = f"<!-- {name} -->\n{markdown(rows)}\n<!-- /{name} -->"
+        text = re.sub(
+            rf"<!-- {name} -->.*?<!-- /{name} -->", lambda _, new=table: new, text, flags=re.S
+        )
     if options.check:
         sys.exit(0 if text == before else f"{README} differs from the measurements")
     README.write_text(text, encoding="utf-8")

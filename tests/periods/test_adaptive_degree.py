@@ -9,12 +9,12 @@ from scipy.sparse import csr_array
 
 import igl_periods as ip
 from igl_periods.complexes.delaunay import intrinsic_delaunay
+from igl_periods.complexes.marked_complex import MarkedComplex
 from igl_periods.elements.least_energy import high_order_forms
 from igl_periods.periods import adaptive_degree as adaptive
 from igl_periods.periods.adaptive_degree import (
     Attempt,
     ToleranceWarning,
-    Triangulation,
     period_matrix_within,
 )
 from igl_periods.periods.rounding import LEAST_ALLOWANCE, congruence
@@ -38,7 +38,7 @@ def within(K, tolerance, **limits):
         cocycles = csr_array(csr_array(T.astype(np.int64)) @ cochains)
         return ip.PeriodMatrix(D, True, cocycles, K, max(LEAST_ALLOWANCE, allowance + loss))
 
-    return period_matrix_within(Triangulation(flipped, carried, T), certify, tolerance, **limits)
+    return period_matrix_within(MarkedComplex(flipped, carried, T), certify, tolerance, **limits)
 
 
 ASYMMETRIC = origami([1, 2, 0, 4, 3], [3, 1, 4, 0, 2])

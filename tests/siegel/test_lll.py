@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.lattice_reduction import assert_lll_reduced
 
-from igl_periods.errors import NotASiegelPointError
+from igl_periods.errors import NotPositiveDefiniteError
 from igl_periods.siegel.enumeration import short_vectors
 from igl_periods.siegel.lll import is_lll_reduced, lll_basis, shortest_first
 from igl_periods.siegel.reduction import siegel_reduce
@@ -65,5 +65,5 @@ def test_lattices_far_from_round(Y):
 )
 def test_lattices_that_are_none(Y, message):
     # In FLINT a form that is not positive definite would end the process.
-    with pytest.raises(NotASiegelPointError, match=message):
+    with pytest.raises(NotPositiveDefiniteError, match=message):
         lll_basis(np.array(Y))

@@ -26,7 +26,7 @@ def test_permutations_pass():
 
 @pytest.mark.parametrize("images", [[], [[0, 1]], [0.0, 1.0], 3])
 def test_arrays_of_a_wrong_shape_or_type(images):
-    with pytest.raises(ip.ComplexError, match="right must be a list of squares"):
+    with pytest.raises(ip.ComplexError, match="right must be a list of integers"):
         checked_permutation(images, "right")
 
 

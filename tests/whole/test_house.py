@@ -19,11 +19,15 @@ TESTED_ELSEWHERE = {
     "__main__.py": "tests/cli/test_program.py",
     "arrays.py": "annotations, checked by mypy",
     "distributed/__main__.py": "tests/distributed/test_command.py",
+    "genus_two.py": "tests/moduli/test_genus_two.py",
     "errors.py": "the tests of the modules that raise them",
     "surfaces/lawson/chart.py": "tests/surfaces/lawson/test_unstructured.py",
     "surfaces/named_surface.py": "tests/surfaces/test_named_surfaces.py",
     "wording.py": "tests/meshes/test_report.py",
 }
+
+# Rooms that a user enters by ``ip.…``.
+PUBLIC_MODULES = {"forms", "genus_two", "surfaces"}
 
 
 def relative(path):
@@ -43,9 +47,18 @@ def test_no_module_has_the_name_of_a_public_function_of_its_package(face):
         name for name in package.__all__ if not isinstance(getattr(package, name), types.ModuleType)
     }
     assert not modules & public
-    assert not {path.stem for path in SOURCE.iterdir()} & (
-        set(ip.__all__) - {"genus_two", "surfaces"}
-    )
+
+
+def test_public_names_that_are_modules_are_meant():
+    modules = {name for name in ip.__all__ if isinstance(getattr(ip, name), types.ModuleType)}
+    assert modules == PUBLIC_MODULES
+    assert {path.stem for path in SOURCE.iterdir()} & set(ip.__all__) == PUBLIC_MODULES
+
+
+def test_only_public_names_are_visible():
+    assert {name for name in dir(ip) if not name.startswith("_")} == set(ip.__all__)
+    assert len(set(ip.__all__)) == len(ip.__all__)
+    assert all(getattr(ip, name).__doc__ for name in ip.__all__)
 
 
 @pytest.mark.parametrize("face", FACES, ids=relative)
