@@ -5,7 +5,6 @@
     python scripts/measure/readme_tables.py --check
 
 Each table stands between two comments, ``<!-- speed -->`` and ``<!-- /speed -->``; the others are
-Each table stands between two comments, ``<!-- speed -->`` and ``<!-- /speed -->``; the others are
 growth, genus, digits, and packages, which is made of the first lines of their faces.  Sections that
 were not measured stay as they are.
 """

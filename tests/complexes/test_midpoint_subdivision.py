@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from scipy.sparse import csr_array
 from support.random_surfaces import BOLZA, L_SHAPE, noisy_torus, random_gluing, random_lengths
+from support.subdivided_points import locate
 
 import igl_periods as ip
-from igl_periods.complexes.midpoint_subdivision import locate, split
+from igl_periods.complexes.midpoint_subdivision import split
 from igl_periods.complexes.surface_checks import is_orientable
 from igl_periods.complexes.triangles import double_areas
 from igl_periods.complexes.weights import cone_angles, cotan_weights

@@ -8,6 +8,7 @@ import pytest
 from support.delaunay_surfaces import flat_torus
 from support.random_surfaces import L_SHAPE
 from support.walked_surfaces import SURFACES, edge_lengths, free_reduction
+from support.words_of_polygons import word_pairing
 
 import igl_periods as ip
 from igl_periods.complexes.cochains import walk_cochain
@@ -15,7 +16,7 @@ from igl_periods.complexes.half_edges import half_edge_ends, walk_vertices
 from igl_periods.topology.cohomology import cotree_cochains, pairing
 from igl_periods.topology.cycles import rooted_loops
 from igl_periods.topology.dual_cycles import dual_homology_basis
-from igl_periods.topology.fundamental_group import fundamental_polygon, shortest_loops, word_pairing
+from igl_periods.topology.fundamental_group import fundamental_polygon, shortest_loops
 from igl_periods.topology.spanning_trees import tree_cotree
 
 
