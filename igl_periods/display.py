@@ -159,7 +159,8 @@ def paragraph_html(text: str) -> str:
 
 def lines_html(title: str, lines: Iterable[str]) -> str:
     """A title over lines of text in the type of a terminal."""
-    return f"<div><b>{escape(title)}</b><pre>{escape(chr(10).join(lines))}</pre></div>"
+    text = escape("\n".join(lines))
+    return f'<div><b>{escape(title)}</b><pre style="font-family:monospace">{text}</pre></div>'
 
 
 def arrays_repr(self: Any) -> str:

@@ -24,7 +24,17 @@ Gu, Yau, "Global conformal surface parameterization" (2003).
 """
 
 from .jacobian import AbelJacobi, abel_jacobi
-from .even_form import most_even_form
+from .even_form import evenness, most_even_form
 from .parametrization import Parametrization, parametrize
+from .prescribed_periods import form_of_periods, form_of_real_periods
 
-__all__ = ["AbelJacobi", "abel_jacobi", "most_even_form", "Parametrization", "parametrize"]
+__all__ = [
+    "AbelJacobi",
+    "abel_jacobi",
+    "form_of_periods",
+    "form_of_real_periods",
+    "evenness",
+    "most_even_form",
+    "Parametrization",
+    "parametrize",
+]

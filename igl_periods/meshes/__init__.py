@@ -19,7 +19,7 @@ loops, the report says what keeps a mesh from having a period matrix.
 ==================  ===========================================================================
 """
 
-from .load import load_mesh
+from .load import load_mesh, split_components
 from .report import MeshReport
 from .surface_files import SURFACE_EXTENSIONS, components_by_genus, read_surface, surface_of
 from .mesh_objects import mesh_of_object
@@ -32,4 +32,5 @@ __all__ = [
     "SURFACE_EXTENSIONS",
     "surface_of",
     "mesh_of_object",
+    "split_components",
 ]

@@ -40,7 +40,7 @@ from .adaptive_degree import ToleranceWarning
 from .computation import period_matrix, period_matrix_from_weights
 from .adaptive_mesh import Refined, refined_period_matrix
 from .quality import MeshQuality, WIDE, mesh_quality
-from .extrapolation import Extrapolation, richardson
+from .extrapolation import Extrapolation, richardson, sampled_torus
 from .real_surfaces import real_structure
 from .recognition import matrix_of_complex
 
@@ -62,4 +62,5 @@ __all__ = [
     "richardson",
     "real_structure",
     "matrix_of_complex",
+    "sampled_torus",
 ]

@@ -55,9 +55,9 @@ from igl_periods.arrays import Complexes, Floats
 from igl_periods.complexes import DeltaComplex
 from igl_periods.display import matrix_html, matrix_latex, matrix_lines, paragraph_html, rounded_up
 from igl_periods.errors import ComplexError, NotASiegelPointError
+from igl_periods.harmonic import energy_factor
 from igl_periods.siegel import SIEGEL_GENUS_LIMIT, check_symplectic, siegel_reduce, to_flint
 from igl_periods.symplectic import (
-    cholesky_factor,
     form_action,
     product,
     siegel_point,
@@ -119,7 +119,7 @@ class PeriodMatrix:
 
     @cached_property
     def _factor(self) -> Floats:
-        return cholesky_factor(self.dirichlet)
+        return energy_factor(self.dirichlet)
 
     @cached_property
     def _williamson(self) -> tuple[Floats, Floats]:
