@@ -1,9 +1,10 @@
 r"""Numbers and facts as a terminal and a notebook show them.
 
 A number x that is known to within b gets the decimals that b supports, and no other: the largest d
-with :math:`2b \le 10^{-d}`.  Rounding to d decimals adds ½ · 10^{−d} at most, so
+with :math:`b \le 10^{-d}`.  Numbers that are no further apart than one unit of the last digit are
+rounded to numbers that are no further apart, so that
 
-.. math:: |\text{printed} - x_{exact}| \le b + \tfrac12 10^{-d} \le 10^{-d},
+.. math:: |\text{round}_d(x) - \text{round}_d(x_{exact})| \le 10^{-d}:
 
 the last digit is off by one at most.  What is within b of 0, or has no digit but zeros, is shown as
 0.  Bounds are rounded upwards, so that they stay bounds.
@@ -31,9 +32,9 @@ _EPS = 2.0**-52
 
 
 def known_decimals(bound: float) -> int:
-    """The largest d with 2 · bound ≤ 10^−d; negative where not even the units are known."""
-    d = math.floor(-math.log10(2.0 * bound))
-    return d if 2.0 * bound <= 10.0**-d else d - 1
+    """The largest d with bound ≤ 10^−d; negative where not even the units are known."""
+    d = math.floor(-math.log10(bound))
+    return d if bound <= 10.0**-d else d - 1
 
 
 def known_digits(x: float, bound: float | None) -> str:
@@ -47,7 +48,7 @@ def known_digits(x: float, bound: float | None) -> str:
 
     Examples
     --------
-    >>> known_digits(1.23456789, 1e-4), known_digits(-3e-9, 1e-8), known_digits(7.2, 2.0)
+    >>> known_digits(1.23456789, 8e-4), known_digits(-3e-9, 1e-8), known_digits(7.2, 2.0)
     ('1.235', '0', '7 ± 3')
     """
     if not math.isfinite(x) or (bound is not None and not math.isfinite(bound)):
@@ -87,6 +88,8 @@ def complex_parts(z: complex, bound: float | None) -> tuple[str, str, str]:
     re, im = known_digits(z.real, bound), known_digits(z.imag, bound)
     if im == "0":
         return re, "", ""
+    if "±" in im:
+        im = f"({im})"
     if re == "0":
         return "", "", f"{im} i"
     return re, "-" if im.startswith("-") else "+", f"{im.removeprefix('-')} i"
