@@ -27,6 +27,7 @@ from .equivalence import symplectic_isomorphisms as symplectic_isomorphisms
 from .errors import ComplexError as ComplexError
 from .errors import MemoryLimitError as MemoryLimitError
 from .errors import MeshError as MeshError
+from .errors import MissingExtraError as MissingExtraError
 from .errors import NotASiegelPointError as NotASiegelPointError
 from .form_choice import most_even_form as most_even_form
 from .half_space import siegel_distance as siegel_distance
@@ -53,6 +54,7 @@ from .pipeline import period_matrix_from_weights as period_matrix_from_weights
 from .quality import mesh_quality as mesh_quality
 from .richardson import Extrapolation as Extrapolation
 from .richardson import richardson as richardson
+from .samples import sample_files as sample_files
 from .siegel import SIEGEL_GENUS_LIMIT as SIEGEL_GENUS_LIMIT
 from .siegel import SiegelReduction as SiegelReduction
 from .siegel import siegel_reduce as siegel_reduce

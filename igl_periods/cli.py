@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .cli_batch import add_batch_command
+from .cli_demo import add_demo_command
 from .cli_pictures import add_commands
 from .cli_surface import (
     ALL,
@@ -30,7 +31,7 @@ from .cli_surface import (
     read_surfaces,
 )
 from .double import real_structure
-from .errors import ComplexError, NotASiegelPointError
+from .errors import ComplexError, MissingExtraError, NotASiegelPointError
 from .identification import identify
 from .mesh import MeshReport
 from .periods import PeriodMatrix, siegel_reduced
@@ -58,7 +59,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # Whoever reads the output has had enough, as ``head`` does.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
-    except OSError as error:
+    except (OSError, MissingExtraError) as error:
         return _refused(str(error))
     except ValueError as error:
         message, mesh = str(error), getattr(options, "mesh", "")
@@ -98,6 +99,7 @@ def _parser() -> argparse.ArgumentParser:
         help="leave the matrix in the marking of the mesh",
     )
     compute.set_defaults(run=_compute)
+    add_demo_command(commands, compute)
     recognise = commands.add_parser(
         "identify",
         help="which named surfaces a mesh can be",

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
 from .cli_surface import add_period_arguments, add_reading_arguments, chosen_options
+from .extras import require
 from .mesh_facts import counted
 
 if TYPE_CHECKING:
@@ -107,6 +108,7 @@ def _run(options: argparse.Namespace, chosen: BatchOptions) -> BatchResult:
 @contextmanager
 def _progress(quiet: bool) -> Iterator[Callable[[int, int, int], None]]:
     """A bar on the terminal, and on nothing else, from the first call on."""
+    require("a batch", "tqdm")
     from tqdm import tqdm
 
     with ExitStack() as stack:

@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .cli_surface import add_surface_arguments, read_surfaces
+from .errors import RenderError
+from .extras import require
 from .form_choice import most_even_form
 from .mesh import MeshReport
 from .parametrization import Parametrization, in_words, parametrize
@@ -123,8 +125,9 @@ def _parametrization(pm: PeriodMatrix, form: str | int | Complexes) -> Parametri
 
 
 def _render(options: argparse.Namespace) -> int:
-    from .render import RenderError, render, save, with_legend
+    from .render import render, save, with_legend
 
+    require("drawing", "open3d", "PIL")
     suffix = Path(options.output).suffix.lower()
     if suffix not in (".png", ".jpg", ".jpeg"):
         raise ValueError(f"a picture is a PNG or JPEG file; {options.output} is neither.")
@@ -138,8 +141,9 @@ def _render(options: argparse.Namespace) -> int:
 
 
 def _view(options: argparse.Namespace) -> int:
-    from .render import RenderError, check_display, show
+    from .render import check_display, show
 
+    require("drawing", "open3d")
     try:
         check_display()
         scene = _scene(options)
@@ -153,6 +157,7 @@ def _view(options: argparse.Namespace) -> int:
 def _texture(options: argparse.Namespace) -> int:
     from .uv_export import write_glb, write_obj
 
+    require("a texture", "PIL")
     writers = {".obj": write_obj, ".glb": write_glb}
     suffix = Path(options.output).suffix.lower()
     if suffix not in writers:
@@ -167,6 +172,7 @@ def _texture(options: argparse.Namespace) -> int:
 def _report(options: argparse.Namespace) -> int:
     from .report import write_report
 
+    require("a report", "matplotlib", "open3d", "PIL")
     pm, mesh = _reduced(options)
     write_report(options.output, pm, name=Path(options.mesh).name, mesh=mesh)
     _say(f"wrote {options.output}")

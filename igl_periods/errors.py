@@ -1,4 +1,6 @@
-"""The errors of the library: all of them are ``ValueError``, so one ``except`` catches them.
+"""The errors of the library.
+
+What is wrong with an input, or missing for it, is a ``ValueError``, so one ``except`` catches it.
 
 A message says what failed, with numbers, the likely cause, and what to do about it.
 """
@@ -18,3 +20,11 @@ class NotASiegelPointError(ValueError):
 
 class MemoryLimitError(ValueError):
     """A computation that would take more memory than there is, or than it was allowed."""
+
+
+class MissingExtraError(ImportError, ValueError):
+    """Packages of an extra of the installation are missing; the message ends with the command."""
+
+
+class RenderError(RuntimeError):
+    """Open3D cannot draw on this machine; the message names what is missing."""

@@ -25,6 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import MeshError
+from .extras import missing_library, require
 from .mesh_text import COUNT, FACE, VERTEX, check_lines, text_lines
 from .ply import read_ply
 from .stl import read_stl
@@ -249,7 +250,13 @@ def _read_stl(file: Path) -> MeshFile:
 
 
 def _read_open3d(file: Path) -> MeshFile:
-    import open3d
+    require(f"reading {file.suffix.lower()} files", "open3d")
+    try:
+        import open3d
+    except (ImportError, OSError) as error:
+        raise MeshError(
+            f"Open3D, which reads such files, cannot start: {missing_library(error)}"
+        ) from error
 
     with open3d.utility.VerbosityContextManager(open3d.utility.VerbosityLevel.Error):
         mesh = open3d.io.read_triangle_mesh(str(file))

@@ -20,13 +20,14 @@ from string import Template
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import ComplexError
+from .errors import ComplexError, RenderError
+from .extras import require
 from .form_choice import most_even_form
 from .mesh_report import MeshReport
 from .parametrization import Parametrization, in_words, parametrize
 from .periods import PeriodMatrix
 from .quality import MeshQuality, advice, mesh_quality
-from .render import RenderError, render, with_legend
+from .render import render, with_legend
 from .scenes import (
     Scene,
     checkerboard_scene,
@@ -75,7 +76,13 @@ def write_report(
         What :func:`~igl_periods.mesh.load_mesh` found in its file.
     size : (int, int)
         Width and height of the pictures in pixels.
+
+    Raises
+    ------
+    MissingExtraError
+        If matplotlib, Open3D or Pillow are not installed.
     """
+    require("a report", "matplotlib", "open3d", "PIL")
     quality = mesh_quality(pm.complex)
     P = parametrize(pm, most_even_form(pm)) if pm.genus else None
     page = Template(files(__package__).joinpath("report_page.html").read_text("utf-8"))

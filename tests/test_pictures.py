@@ -3,6 +3,7 @@
 import argparse
 import builtins
 import ctypes
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -14,13 +15,17 @@ from PIL import Image
 from random_surfaces import torus_of_revolution
 
 import igl_periods as ip
+from igl_periods import render as drawing_process
 from igl_periods.cli_pictures import add_commands
 from igl_periods.curves import smooth_closed_curves, tube
 from igl_periods.double import double
+from igl_periods.drawing import load_open3d, show
+from igl_periods.drivers import check_egl, check_vulkan
+from igl_periods.errors import RenderError
 from igl_periods.form_choice import most_even_form
 from igl_periods.parametrization import parametrize
 from igl_periods.quality import mesh_quality
-from igl_periods.render import RenderError, check_display, render, save, with_legend
+from igl_periods.render import check_display, render, save, with_legend
 from igl_periods.scenes import (
     Scene,
     checkerboard,
@@ -240,6 +245,28 @@ def test_nothing_is_said_while_drawing(torus, capfd):
     assert capfd.readouterr() == ("", "")
 
 
+def test_the_background_is_white_and_pictures_are_repeatable(torus):
+    scene = cycles_scene(torus)
+    picture = render(scene, SIZE)
+    assert np.array_equal(picture, render(scene, SIZE))
+    # Nothing is drawn beyond the silhouette, and everything there is exactly white.
+    rows, columns = np.nonzero((picture < 255).any(axis=2))
+    assert min(rows.min(), columns.min()) > 0
+    assert rows.max() < SIZE[1] - 1
+    assert columns.max() < SIZE[0] - 1
+    assert 0.2 < (picture == 255).all(axis=2).mean() < 0.8
+
+
+def test_the_nearer_of_two_parts_is_seen(torus):
+    # A ball in the hole, where one looks down the axis; from the side the torus is before it.
+    V, F = surface_in_space(torus.complex)
+    red = (1, 0, 0)
+    ball = Scene(V, F, np.full(V.shape, 0.8), balls=((np.zeros((1, 3)), 0.05, red),))
+    above, aside = render(ball, SIZE, (0, 0, 1)), render(ball, SIZE, (1, 0, 0))
+    assert count_near(above, red) > 100
+    assert count_near(aside, red) == 0
+
+
 def test_what_cannot_be_drawn_is_refused(torus):
     scene = plain_scene(torus.complex)
     for size in ((0, 10), (10, 5000)):
@@ -262,52 +289,102 @@ def test_plane_surfaces_lie_in_space():
     assert V.tolist() == [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
 
 
+# ---- Machines that cannot draw ----
+
+
 @pytest.mark.parametrize(
     ("message", "expected"),
     [
         ("libX11.so.6: cannot open shared object file", "libX11.so.6 is missing.*libx11-6"),
         ("libusb-1.0.so.0: cannot open shared object", "libusb-1.0.so.0 is missing.*libusb-1.0-0"),
+        ("libidn2.so.0: cannot open shared object file", "libidn2.so.0 is missing.*libidn2-0"),
         ("libunheard.so.3: cannot open", r"libunheard.so.3 is missing\."),
-        ("No module named 'open3d'", "pip install open3d"),
+        ("no symbol", "cannot start: no symbol"),
     ],
 )
-def test_what_open3d_lacks_is_named(torus, monkeypatch, message, expected):
+def test_what_open3d_lacks_is_named(monkeypatch, message, expected):
     original = builtins.__import__
 
     def broken(name, *arguments, **options):
         if name == "open3d":
-            raise (ImportError if "module" in message else OSError)(message)
+            raise OSError(message)
         return original(name, *arguments, **options)
 
     monkeypatch.setattr(builtins, "__import__", broken)
     with pytest.raises(RenderError, match=expected):
-        render(plain_scene(torus.complex), SIZE)
+        load_open3d()
 
 
-def test_missing_egl_is_named(torus, monkeypatch):
-    scene = plain_scene(torus.complex)
+class Library:
+    """A library whose functions do nothing, and return a number."""
 
-    class NoDriver:
-        def __init__(self, name):
-            self.eglGetPlatformDisplay = self.eglGetDisplay = Refusing()
-            self.eglInitialize = Refusing()
+    def __init__(self, result):
+        self.result = result
 
-    class Refusing:
-        restype = None
+    def __getattr__(self, name):
+        result = self.result
 
-        def __call__(self, *arguments):
-            return 0
+        class Function:
+            restype = None
 
-    monkeypatch.setattr(ctypes, "CDLL", NoDriver)
-    with pytest.raises(RenderError, match=r"EGL finds no driver.*libegl-mesa0"):
-        render(scene, SIZE)
+            def __call__(self, *arguments):
+                return result
+
+        function = Function()
+        setattr(self, name, function)
+        return function
+
+
+@pytest.mark.parametrize(
+    ("check", "result", "library", "package"),
+    [
+        (check_egl, 0, "EGL finds no driver.*libegl-mesa0", "libEGL.so.1 is missing.*libegl1"),
+        (
+            check_vulkan,
+            -9,
+            "Vulkan finds no driver.*mesa-vulkan-drivers",
+            "libvulkan.so.1 is missing.*mesa-vulkan-drivers",
+        ),
+    ],
+)
+def test_missing_drivers_are_named(monkeypatch, check, result, library, package):
+    monkeypatch.setattr(ctypes, "CDLL", lambda name: Library(result))
+    with pytest.raises(RenderError, match=library):
+        check()
 
     def missing(name):
         raise OSError(f"{name}: cannot open shared object file")
 
     monkeypatch.setattr(ctypes, "CDLL", missing)
-    with pytest.raises(RenderError, match=r"libEGL.so.1 is missing.*libegl1"):
-        render(scene, SIZE)
+    with pytest.raises(RenderError, match=package):
+        check()
+
+
+def test_a_machine_without_drivers(command, tmp_path, capsys, monkeypatch):
+    # Where the loaders of EGL and of Vulkan look for drivers.
+    for variable in ("__EGL_VENDOR_LIBRARY_FILENAMES", "VK_DRIVER_FILES", "VK_ICD_FILENAMES"):
+        monkeypatch.setenv(variable, "/nowhere.json")
+    assert command("render", LAWSON, "-o", tmp_path / "p.png", "--show", "cut") == 1
+    assert re.search(r"(EGL|Vulkan) finds no driver", capsys.readouterr().err)
+    assert not (tmp_path / "p.png").exists()
+
+
+@pytest.mark.parametrize(
+    ("program", "message"),
+    [
+        ("import time; time.sleep(600)", "has not drawn the picture in .* s, and was ended"),
+        (
+            "import os; os.write(2, b'no driver\\n\\n'); os.abort()",
+            "ended while drawing, by SIGABRT. The last that it said: no driver$",
+        ),
+        ("raise SystemExit(3)", "ended while drawing, with exit code 3. .*said: nothing$"),
+    ],
+)
+def test_open3d_may_hang_or_abort(torus, monkeypatch, program, message):
+    monkeypatch.setattr(drawing_process, "_PROGRAM", program)
+    monkeypatch.setattr(drawing_process, "_START", 0.5)
+    with pytest.raises(RenderError, match=message):
+        render(plain_scene(torus.complex), (4, 3))
 
 
 def test_open3d_is_imported_for_pictures_only():
@@ -371,6 +448,9 @@ def test_view_shows_the_scene_in_a_window(command, monkeypatch, capsys):
     shown = []
     monkeypatch.setenv("DISPLAY", ":0")
     monkeypatch.setattr(open3d.visualization, "draw", lambda parts, **_: shown.extend(parts))
+    monkeypatch.setattr(
+        drawing_process, "_run_open3d", lambda folder, task, seconds: show(*task[1:])
+    )
     assert command("view", LAWSON, "--show", "cut") == 0
     assert [part["name"] for part in shown] == ["surface", "marks"]
     surface, marks = (part["geometry"] for part in shown)
@@ -447,12 +527,3 @@ def test_wrong_files_and_forms(command, tmp_path):
         command("render", LAWSON, "-o", tmp_path / "p.png", "--show", "density", "--form", "3")
     with pytest.raises(ValueError, match="coefficients must be 2 finite numbers"):
         command("texture", LAWSON, "-o", tmp_path / "p.obj", "--form", "1,2,3")
-
-
-def test_a_machine_that_cannot_draw(command, tmp_path, capsys, monkeypatch):
-    def missing(name):
-        raise OSError(f"{name}: cannot open shared object file")
-
-    monkeypatch.setattr(ctypes, "CDLL", missing)
-    assert command("render", LAWSON, "-o", tmp_path / "p.png", "--show", "cut") == 1
-    assert "libEGL.so.1 is missing" in capsys.readouterr().err

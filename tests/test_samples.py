@@ -1,0 +1,48 @@
+"""The surfaces that come with the package, and the command that shows one."""
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+import igl_periods as ip
+from igl_periods.cli import main
+from igl_periods.samples import SAMPLES
+
+ROOT = Path(__file__).parents[1]
+
+
+def test_samples_are_in_the_wheel():
+    listed = re.findall(r'^  "data/([\w.]+)",$', (ROOT / "pyproject.toml").read_text(), re.M)
+    assert sorted(listed) == sorted(file for file, _ in SAMPLES.values())
+
+
+@pytest.mark.parametrize("name", SAMPLES)
+def test_samples_have_the_genus_that_is_said(name):
+    file = ip.sample_files()[name]
+    if file.suffix == ".json":
+        K = ip.DeltaComplex.from_gluing(**json.loads(file.read_text()))
+    else:
+        K = ip.DeltaComplex.from_mesh(*ip.load_mesh(file)[:2])
+    said = re.search(r"genus (\d)", SAMPLES[name][1])
+    assert K.genus == (int(said[1]) if said else 1)
+
+
+def test_demo(capsys):
+    assert main(["demo"]) == 0
+    out = capsys.readouterr().out
+    first, _, result = out.partition("\n\n")
+    file = str(ip.sample_files()["lawson_2_1"])
+    assert first.endswith(f"of genus 2: igl-periods compute {file}")
+    assert main(["compute", file]) == 0
+    assert result == capsys.readouterr().out
+    assert main(["demo", "klein"]) == 0
+    assert "genus 3" in capsys.readouterr().out
+
+
+def test_demo_of_nothing_known(capsys):
+    with pytest.raises(SystemExit) as end:
+        main(["demo", "bunny"])
+    assert end.value.code == 2
+    assert "invalid choice: 'bunny'" in capsys.readouterr().err
