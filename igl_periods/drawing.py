@@ -1,8 +1,4 @@
-"""Drawing with Open3D, in a process that does nothing else and may be ended at any time.
-
-The parts of a scene are drawn one by one, and of two that meet in a pixel the nearer is seen: with
-some drivers Open3D 0.20 waits for ever as soon as there are two meshes in its scene.
-"""
+"""Drawing with Open3D, in a process that does nothing else and may be ended at any time."""
 
 from __future__ import annotations
 
@@ -59,16 +55,13 @@ def draw(scene: Scene, size: tuple[int, int], eye: Floats, up: Floats) -> Bytes:
     width, height = (_OVERSAMPLING * pixels for pixels in size)
     renderer = o3d.visualization.rendering.OffscreenRenderer(width, height)
     _light(o3d, renderer, eye, up)
-    picture, nearest = np.full((height, width, 3), 255.0), np.full((height, width), np.inf)
     for name, geometry, material in geometries(o3d, scene):
         renderer.scene.add_geometry(name, geometry, material)
-        _aim(renderer, scene.V, eye, up, width / height)
-        # Where nothing is, the depth is infinite; the background is not quite what it is set to.
-        depth = np.asarray(renderer.render_to_depth_image(z_in_view_space=True))
-        part = np.asarray(renderer.render_to_image())
-        picture[depth < nearest] = part[depth < nearest]
-        nearest = np.minimum(nearest, depth)
-        renderer.scene.clear_geometry()
+    _aim(renderer, scene.V, eye, up, width / height)
+    picture = np.asarray(renderer.render_to_image()).astype(np.float64)
+    # Version 0.20 colours the background, 0.19 dithers it.  Where nothing is, the depth is infinite.
+    depth = np.asarray(renderer.render_to_depth_image(z_in_view_space=True))
+    picture[np.isinf(depth)] = 255.0
     fine = picture.reshape(size[1], _OVERSAMPLING, size[0], _OVERSAMPLING, 3)
     return np.rint(fine.mean(axis=(1, 3))).astype(np.uint8)
 
