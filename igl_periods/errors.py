@@ -5,6 +5,8 @@ What is wrong with an input, or missing for it, is a ``ValueError``, so one ``ex
 A message says what failed, with numbers, the likely cause, and what to do about it.
 """
 
+from __future__ import annotations
+
 
 class MeshError(ValueError):
     """The arrays or the file handed over describe no triangulated surface."""
@@ -26,5 +28,13 @@ class MissingExtraError(ImportError, ValueError):
     """Packages of an extra of the installation are missing; the message ends with the command."""
 
 
+class EnumerationLimitError(RuntimeError):
+    """An enumeration of short vectors passed its work limit and was given up."""
+
+
 class RenderError(RuntimeError):
     """Open3D cannot draw on this machine; the message names what is missing."""
+
+
+class BatchError(RuntimeError):
+    """A cluster cannot be used, or not any longer; the message says what to do."""

@@ -9,12 +9,10 @@ import pytest
 from random_surfaces import torus_of_revolution
 
 import igl_periods as ip
-from igl_periods.cli import main
 from igl_periods.extras import EXTRAS, missing_library, require
-from igl_periods.mesh_file import read_mesh_file
-from igl_periods.report import write_report
-from igl_periods.scenes import plain_scene
-from igl_periods.uv_export import write_obj
+from igl_periods.meshes.formats.read import read_mesh_file
+from igl_periods.pictures import plain_scene, render, save, with_legend, write_obj
+from igl_periods.reports import write_report
 
 ROOT = Path(__file__).parents[1]
 LAWSON = ROOT / "data" / "lawson_2_1.off"
@@ -46,18 +44,27 @@ def test_extras_are_those_of_the_installation():
     assert required.isdisjoint(DISTRIBUTIONS.get(package, package) for package in BROUGHT)
 
 
-def test_the_core_needs_no_extra():
+def run_without(packages, program, folder):
+    """Run a program in a Python that lacks some packages."""
+    lacking = f"import sys; sys.modules |= dict.fromkeys({sorted(packages)!r})\n"
+    return subprocess.run(
+        [sys.executable, "-c", lacking + program],
+        capture_output=True,
+        check=False,
+        cwd=folder,
+        text=True,
+    )
+
+
+def test_the_core_needs_no_extra(tmp_path):
     program = f"""
-import sys
-for package in {sorted(BROUGHT)!r}:
-    sys.modules[package] = None
 import igl_periods as ip, igl_periods.cli, igl_periods.surfaces
 V, F, _ = ip.load_mesh({str(LAWSON)!r})
 assert ip.period_matrix(V, F, degree=2).bound < 1e-3
 sys.exit(igl_periods.cli.main(["compute", {str(LAWSON)!r}, "--json"]))
 """
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, check=False)
-    assert done.stderr == b""
+    done = run_without(BROUGHT, program, tmp_path)
+    assert done.stderr == ""
     assert done.returncode == 0
 
 
@@ -81,15 +88,6 @@ def doors(tmp_path):
     glb = tmp_path / "mesh.glb"
     glb.write_bytes(b"glTF")
 
-    def batch():
-        for name in [name for name in sys.modules if name.startswith("igl_periods.batch")]:
-            del sys.modules[name]
-        import igl_periods.batch as batch
-
-        return batch
-
-    from igl_periods.render import render, save, with_legend
-
     return {
         "render": (("open3d",), "pictures", lambda: render(scene, (8, 6))),
         "legend": (("PIL",), "pictures", lambda: with_legend(scene.V, scene)),
@@ -105,21 +103,24 @@ def doors(tmp_path):
             lambda: write_obj(tmp_path / "t.obj", ip.parametrize(pm, [1.0])),
         ),
         "read": (("open3d",), "pictures", lambda: read_mesh_file(glb)),
-        "batch": (("dask", "pyarrow"), "batch", batch),
     }
 
 
-@pytest.mark.parametrize("door", ["render", "legend", "save", "report", "texture", "read", "batch"])
+@pytest.mark.parametrize("door", ["render", "legend", "save", "report", "texture", "read"])
 def test_every_door_names_its_extra(monkeypatch, tmp_path, door):
     packages, extra, call = doors(tmp_path)[door]
-    loaded = {name: module for name, module in sys.modules.items() if "igl_periods" in name}
     without(monkeypatch, *packages)
     message = rf"needs {' and '.join(packages)}: pip install 'igl_periods\[{extra}\]'$"
-    try:
-        with pytest.raises(ip.MissingExtraError, match=message):
-            call()
-    finally:
-        sys.modules.update(loaded)
+    with pytest.raises(ip.MissingExtraError, match=message):
+        call()
+
+
+def test_the_package_of_batches_names_its_extra(tmp_path):
+    done = run_without(["dask", "pyarrow"], "import igl_periods.batch", tmp_path)
+    assert done.stderr.splitlines()[-1] == (
+        "igl_periods.errors.MissingExtraError: a batch needs dask and pyarrow: "
+        "pip install 'igl_periods[batch]'"
+    )
 
 
 @pytest.mark.parametrize(
@@ -134,18 +135,12 @@ def test_every_door_names_its_extra(monkeypatch, tmp_path, door):
         (("batch", LAWSON, "-o", "b.parquet"), "tqdm", "batch"),
     ],
 )
-def test_every_command_names_its_extra_in_one_line(
-    monkeypatch, tmp_path, capsys, arguments, missing, extra
-):
-    monkeypatch.chdir(tmp_path)
+def test_every_command_names_its_extra_in_one_line(tmp_path, arguments, missing, extra):
     (tmp_path / "mesh.glb").write_bytes(b"glTF")
-    loaded = {name: module for name, module in sys.modules.items() if "igl_periods" in name}
-    for name in loaded:
-        if name.startswith("igl_periods.batch"):
-            monkeypatch.delitem(sys.modules, name)
-    without(monkeypatch, missing)
-    assert main([str(argument) for argument in arguments]) == 1
-    out, err = capsys.readouterr()
-    assert out == ""
-    line = rf"igl-periods: [\w. ]+ needs? {missing}: pip install 'igl_periods\[{extra}\]'\n"
-    assert re.fullmatch(line, err)
+    words = [str(argument) for argument in arguments]
+    program = f"import igl_periods.cli; sys.exit(igl_periods.cli.main({words!r}))"
+    done = run_without([missing], program, tmp_path)
+    assert done.returncode == 1
+    assert done.stdout == ""
+    line = rf"igl-periods: [\w. ]+ needs {missing}: pip install 'igl_periods\[{extra}\]'\n"
+    assert re.fullmatch(line, done.stderr)

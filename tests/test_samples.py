@@ -8,7 +8,7 @@ import pytest
 
 import igl_periods as ip
 from igl_periods.cli import main
-from igl_periods.samples import SAMPLES
+from igl_periods.meshes import SAMPLES
 
 ROOT = Path(__file__).parents[1]
 

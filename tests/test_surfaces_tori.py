@@ -7,10 +7,10 @@ from hypothesis import strategies as st
 from matching import mobius
 
 import igl_periods as ip
-from igl_periods.delta_complex import cone_angles
-from igl_periods.quality import mesh_quality
+from igl_periods.complexes.triangles import length_sensitivity
+from igl_periods.complexes.weights import cone_angles
+from igl_periods.periods.quality import mesh_quality
 from igl_periods.surfaces import flat_torus, torus_of_revolution, torus_of_revolution_modulus
-from igl_periods.triangles import length_sensitivity
 
 REAL, IMAGINARY = st.floats(-3, 3), st.floats(0.05, 5)
 
