@@ -21,7 +21,7 @@ from igl_periods.differentials.parametrization import parametrize
 from igl_periods.errors import RenderError
 from igl_periods.meshes.surface_files import components_by_genus, surface_of
 from igl_periods.periods.quality import mesh_quality
-from igl_periods.pictures import rendering
+from igl_periods.pictures import drivers, rendering
 from igl_periods.pictures.drawing import load_open3d, show
 from igl_periods.pictures.drivers import check_egl, check_vulkan
 from igl_periods.pictures.rendering import check_display, render, save, with_legend
@@ -357,6 +357,18 @@ def test_missing_drivers_are_named(monkeypatch, check, result, library, package)
     monkeypatch.setattr(ctypes, "CDLL", missing)
     with pytest.raises(RenderError, match=package):
         check()
+
+
+def test_a_driver_that_hangs_is_named(monkeypatch):
+    monkeypatch.setattr(ctypes, "CDLL", lambda name: Library(0))
+    found = ["Mesa 22.3.6 (LLVM 15.0.6)"]
+    monkeypatch.setattr(drivers, "_vulkan_drivers", lambda vulkan: found)
+    with pytest.raises(RenderError, match=r"waits for ever for .* Mesa 22\.3\.6 .*newer Mesa"):
+        check_vulkan()
+    # Another device beside it, the renderer of a newer version, one in hardware.
+    for driver in ("Mesa 25.0.7-2+deb13u1 (LLVM 19.1.7)", "Mesa 22.3.6", "560.35.03"):
+        found[1:] = [driver]
+        check_vulkan()
 
 
 def test_a_machine_without_drivers(command, tmp_path, capsys, monkeypatch):
