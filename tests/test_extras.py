@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from random_surfaces import torus_of_revolution
+from support.random_surfaces import torus_of_revolution
 
 import igl_periods as ip
 from igl_periods.extras import EXTRAS, missing_library, require
