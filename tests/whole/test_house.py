@@ -23,7 +23,6 @@ TESTED_ELSEWHERE = {
     "errors.py": "the tests of the modules that raise them",
     "surfaces/lawson/chart.py": "tests/surfaces/lawson/test_unstructured.py",
     "surfaces/named_surface.py": "tests/surfaces/test_named_surfaces.py",
-    "wording.py": "tests/meshes/test_report.py",
 }
 
 # Rooms that a user enters by ``ip.…``.
