@@ -21,7 +21,7 @@ HOLES = st.sampled_from([0, 4, 100])
 # Kind of example: a strategy, and how many examples the default and the slow suite judge.
 KINDS = {
     "file": (st.tuples(damage.files(), st.booleans(), HOLES), 120, 5000),
-    "Open3D file": (st.tuples(damage.files(damage.OPEN3D), st.booleans(), HOLES), 40, 1000),
+    "scene file": (st.tuples(damage.files(damage.SCENES), st.booleans(), HOLES), 40, 1000),
     "mesh": (damage.meshes(), 40, 1500),
     "repair": (st.tuples(damage.meshes(), HOLES), 40, 1000),
     "lengths": (damage.lengths(), 40, 500),

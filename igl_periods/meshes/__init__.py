@@ -17,7 +17,7 @@ loops, the report says what keeps a mesh from having a period matrix.
 ``seams``           boundary edges at the same place
 ``contraction``     edges without length
 ``welding``         equal rows, unused vertices
-``formats``         OBJ, OFF, PLY, STL, 3MF, glTF, and what Open3D reads
+``formats``         OBJ, OFF, PLY, STL, 3MF, glTF
 ``gluing_file``     triangles glued as a JSON file says
 ``surface_files``   either of them, its double, its components
 ==================  ===========================================================================

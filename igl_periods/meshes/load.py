@@ -39,8 +39,8 @@ def load_mesh(
     """Read a triangle mesh from a file.
 
     OBJ, OFF, PLY, STL, 3MF, glTF and GLB are read in double precision and in the order of the file,
-    FBX by Open3D; each of them compressed by gzip too (``mesh.obj.gz``).  Polygons are divided into
-    triangles (:func:`~igl_periods.meshes.polygons.triangulated`).
+    each of them compressed by gzip too (``mesh.obj.gz``).  Polygons are divided into triangles
+    (:func:`~igl_periods.meshes.polygons.triangulated`).
 
     Parameters
     ----------

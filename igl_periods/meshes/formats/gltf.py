@@ -150,7 +150,8 @@ def _parts_at(
         faces.setdefault(positions, []).append(_triangles(mode, corners))
     parts = []
     for positions, triangles in faces.items():
-        V = accessors(positions).astype(np.float64)
+        with np.errstate(invalid="ignore", over="ignore"):
+            V = accessors(positions).astype(np.float64)
         if V.shape[1] != 3:
             raise MeshError("positions have not three coordinates.")
         part = placed(Part(V, np.concatenate(triangles)), matrix)

@@ -65,8 +65,9 @@ def _of_three_dimensions(body: list[bytes]) -> list[bytes]:
 
 def _counts(body: list[bytes]) -> tuple[int, int, list[bytes]]:
     """The numbers of vertices and faces, and what follows them and the number of edges."""
-    while len(body) > 1 and len(body[0].split()) < 2:
-        body = [body[0] + b" " + body[1], *body[2:]]
+    if body and len(body[0].split()) == 1:
+        # Each on a line of its own.
+        body = [b" ".join(body[:3]), *body[3:]]
     line = body[0].split(None, 3) if body else []
     if len(line) > 2 and not COUNT.fullmatch(line[2]):
         # Without a number of edges.
@@ -134,16 +135,16 @@ def _refuse(
 ) -> None:
     """Say what is wrong with faces that do not come out even."""
     announced = f"{n} vertices and {m} faces are announced, and {len(body)} lines follow"
-    if len(words) < 3 * n + m or len(body) < n + m:
-        raise MeshError(f"{announced}: the file is truncated, or its counts are wrong.")
-    for row in body[n : n + m]:
+    done, at = failure
+    if done == m:
+        raise MeshError(
+            f"{announced} that cannot be divided among them: {len(words) - at} words are left. The "
+            "counts are wrong, or vertices have more numbers than the keyword says."
+        )
+    for row in body[n : n + m] if len(body) >= n + m else []:
         if _length(row.split()) > len(row.split()):
             raise MeshError(f"this line is no face: {shown(row)}.")
-    done, at = failure
-    raise MeshError(
-        f"{announced} that cannot be divided among them: {done} faces and {len(words) - at} words "
-        "are left. The counts are wrong, or vertices have more numbers than the keyword says."
-    )
+    raise MeshError(f"{announced}: the file is truncated, or its counts are wrong.")
 
 
 def _corners(row: bytes) -> list[int]:

@@ -23,7 +23,8 @@ def placed(part: Part, matrix: Floats) -> Part:
     A reflection shows the inside of an oriented surface outside; turning the faces undoes that.
     """
     A, t = matrix[:3, :3], matrix[:3, 3]
-    V = part.V if (matrix == np.eye(4)).all() else part.V @ A.T + t
+    with np.errstate(invalid="ignore", over="ignore"):
+        V = part.V if (matrix == np.eye(4)).all() else part.V @ A.T + t
     return Part(V, part.F[:, ::-1] if np.linalg.det(A) < 0.0 else part.F)
 
 

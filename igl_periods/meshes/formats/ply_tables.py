@@ -53,7 +53,8 @@ class Column:
     def floats(self) -> Floats:
         """The numbers, rounded to the type that the header declares."""
         if isinstance(self.values, np.ndarray):
-            return self.values.astype(np.float64)
+            with np.errstate(invalid="ignore"):
+                return self.values.astype(np.float64)
         # What is too large for single precision becomes infinite.
         with np.errstate(over="ignore"):
             return _floats(self.values).astype(self.kind).astype(np.float64)
@@ -69,7 +70,7 @@ class Column:
             return found
         if self.kind in _INTEGERS:
             return self.values.astype(np.int64)
-        return whole(self.values.astype(np.float64))
+        return whole(self.floats())
 
 
 def _floats(words: list[bytes]) -> Floats:

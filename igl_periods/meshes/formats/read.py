@@ -1,7 +1,7 @@
 """Mesh files: positions and polygons, in double precision and in the order of the file.
 
 Readers trust nothing: every number is matched before it is converted, every count is compared with
-what is there, and every reader gets all bytes of the file, decompressed.  FBX is left to Open3D.
+what is there, and every reader gets all bytes of the file, decompressed.
 """
 
 from __future__ import annotations
@@ -18,12 +18,16 @@ from .gltf import mesh_from_gltf
 from .mesh_file import MeshFile
 from .obj import mesh_from_obj
 from .off import mesh_from_off
-from .open3d import mesh_from_fbx
 from .ply import mesh_from_ply
 from .stl import mesh_from_stl
 from .three_mf import mesh_from_3mf
 
 _COMPRESSED = ".gz"
+# What to do with files that hold surfaces of another kind, or that no kept library reads rightly.
+_EXPORTS = {
+    **dict.fromkeys((".step", ".stp", ".iges", ".igs"), " Export the part as STL or 3MF."),
+    **dict.fromkeys((".fbx", ".blend", ".dae"), " Export the mesh as glTF or OBJ."),
+}
 
 
 def extension_of(name: str) -> str:
@@ -52,7 +56,7 @@ def read_mesh_file(path: str | PathLike[str]) -> MeshFile:
         known = " ".join(EXTENSIONS)
         raise MeshError(
             f"{file}: the format {extension or '(none)'!r} is not one of {known}, with or without "
-            f"{_COMPRESSED}."
+            f"{_COMPRESSED}.{_EXPORTS.get(extension, '')}"
         )
     try:
         data = content(file, file.suffix.lower() == _COMPRESSED)
@@ -88,7 +92,6 @@ _READERS: dict[str, Callable[[bytes], MeshFile]] = {
     ".ply": mesh_from_ply,
     ".stl": mesh_from_stl,
     ".3mf": mesh_from_3mf,
-    ".fbx": mesh_from_fbx,
 }
 # Extensions of the files that can be read.
 EXTENSIONS = (*_READERS, *_GLTF)

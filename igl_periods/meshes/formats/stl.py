@@ -71,7 +71,9 @@ def _is_text(data: bytes) -> bool:
 
 def _binary(data: bytes, n_facets: int) -> Floats:
     facets = np.frombuffer(data, _FACET, n_facets, offset=_HEADER)
-    return facets["corners"].reshape(-1, 3).astype(np.float64)
+    # NaN of any kind, which is refused later where it is used.
+    with np.errstate(invalid="ignore"):
+        return facets["corners"].reshape(-1, 3).astype(np.float64)
 
 
 def _binary_by_its_length(data: bytes, announced: int) -> tuple[Floats, tuple[str, ...]]:

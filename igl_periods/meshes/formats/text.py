@@ -39,9 +39,9 @@ def plain_text(data: bytes) -> bytes:
         if data.startswith(mark):
             return data[len(mark) :] if encoding == "utf-8" else _decoded(data, encoding)
     # What CP/M and DOS put at the end.
-    data = data.rstrip(b"\0\x1a")
-    if b"\0" not in data:
-        return data
+    text = data.rstrip(b"\0\x1a")
+    if b"\0" not in text:
+        return text
     for encoding, empty in (("utf-16-le", data[1:200:2]), ("utf-16-be", data[0:200:2])):
         if empty.strip(b"\0") == b"":
             return _decoded(data, encoding)

@@ -114,6 +114,7 @@ class _Archive:
             model = _Model(name)
             parser = ET.XMLParser(target=model)
             parser.feed(_member(self._archive, name))
+            parser.close()
             self._models[name] = model
         return self._models[name]
 
