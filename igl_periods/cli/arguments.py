@@ -6,7 +6,7 @@ import argparse
 import warnings
 from typing import Any, TypeAlias
 
-from igl_periods.complexes import DeltaComplex, check_surface
+from igl_periods.complexes import DeltaComplex, as_complex, check_surface
 from igl_periods.errors import ComplexError, MeshError
 from igl_periods.meshes import (
     WELD,
@@ -16,7 +16,6 @@ from igl_periods.meshes import (
     surface_of,
     way_out,
 )
-from igl_periods.periods import as_complex
 from igl_periods.run_log import stage
 
 ALL = "all"

@@ -36,6 +36,7 @@ from .least_energy import (
     high_order_forms,
     rounding_allowance,
 )
+from .point_values import edge_integrals, gradients, potentials
 
 __all__ = [
     "separate_cones",
@@ -45,4 +46,7 @@ __all__ = [
     "high_order_forms",
     "HighOrderForms",
     "rounding_allowance",
+    "potentials",
+    "gradients",
+    "edge_integrals",
 ]

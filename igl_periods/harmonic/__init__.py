@@ -32,12 +32,13 @@ Chen, Davis, Hager, Rajamanickam, "Algorithm 887: CHOLMOD" (2008).
 """
 
 from .laplace_matrix import laplacian, outflow
-from .cholmod import CholeskyFactor, NotPositiveDefiniteError, factor, solve
+from .cholmod import CholeskyFactor, factor, solve
 from .potentials import factored, factored_laplacian, harmonic_potentials, solutions
 from .energies import (
     dirichlet_matrix,
     harmonic_energies,
     harmonic_problem,
+    HarmonicProblem,
     linear_energies,
     weighted_energies,
 )
@@ -49,9 +50,9 @@ from .harmonic_cochains import (
     side_matrix,
 )
 from .constant_forms import face_areas, linear_parts, spread_to_vertices
-from .excess import energy_excess
+from .excess import energy_excess, most_of
 from .rounding import (
-    POWER_STEPS,
+    energy_factor,
     TRIANGLE_ERROR,
     ULP,
     allowance_for_loss,
@@ -64,7 +65,6 @@ __all__ = [
     "outflow",
     "factored_laplacian",
     "CholeskyFactor",
-    "NotPositiveDefiniteError",
     "factor",
     "solve",
     "factored",
@@ -73,6 +73,7 @@ __all__ = [
     "dirichlet_matrix",
     "harmonic_energies",
     "harmonic_problem",
+    "HarmonicProblem",
     "linear_energies",
     "weighted_energies",
     "checked_basis",
@@ -84,10 +85,11 @@ __all__ = [
     "linear_parts",
     "spread_to_vertices",
     "energy_excess",
+    "energy_factor",
+    "most_of",
     "allowance_for_loss",
     "extreme_sensitivity",
     "geometric_allowance",
-    "POWER_STEPS",
     "TRIANGLE_ERROR",
     "ULP",
 ]

@@ -20,10 +20,11 @@ loops, the report says what keeps a mesh from having a period matrix.
 ``formats``         OBJ, OFF, PLY, STL, 3MF, glTF
 ``gluing_file``     triangles glued as a JSON file says
 ``surface_files``   either of them, its double, its components
+``mesh_objects``    meshes of trimesh, Open3D, PyVista, meshio
 ==================  ===========================================================================
 """
 
-from .load import load_mesh
+from .load import load_mesh, split_components
 from .report import MeshReport
 from .advice import way_out
 from .seams import WELD
@@ -34,6 +35,7 @@ from .surface_files import (
     SURFACE_EXTENSIONS,
     surface_of,
 )
+from .mesh_objects import mesh_of_object
 
 __all__ = [
     "load_mesh",
@@ -45,4 +47,6 @@ __all__ = [
     "read_surface",
     "SURFACE_EXTENSIONS",
     "surface_of",
+    "mesh_of_object",
+    "split_components",
 ]

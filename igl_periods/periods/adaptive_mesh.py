@@ -25,22 +25,24 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import partial
 
-import numpy as np
 from scipy.sparse import csr_array
 
-from igl_periods.arrays import Floats, Ints
+from igl_periods.arrays import Floats
 from igl_periods.complexes import (
     DeltaComplex,
     cotan_weights,
     insert_barycentres,
     intrinsic_delaunay,
+    of_a_surface,
     split,
 )
+from igl_periods.display import facts_html, rounded_up
 from igl_periods.harmonic import (
     dirichlet_matrix,
     energy_excess,
     geometric_allowance,
     harmonic_potentials,
+    most_of,
 )
 from igl_periods.run_log import stage
 from igl_periods.topology import cohomology_basis
@@ -73,7 +75,19 @@ class Refined:
     cochains: csr_array
     steps: tuple[tuple[int, float], ...]
 
+    def __repr__(self) -> str:
+        (first, before), (last, after) = self.steps[0], self.steps[-1]
+        return (
+            f"Refined({first} to {last} faces, bound {rounded_up(before, 3)} to "
+            f"{rounded_up(after, 3)})"
+        )
 
+    def _repr_html_(self) -> str:
+        rows = [(f"{n} faces", f"bound {rounded_up(bound, 3)}") for n, bound in self.steps]
+        return facts_html("Refined", rows)
+
+
+@of_a_surface
 def refined_period_matrix(
     K: DeltaComplex, bound: float, *, largest: int = 200_000, local: bool = True
 ) -> Refined:
@@ -81,8 +95,8 @@ def refined_period_matrix(
 
     Parameters
     ----------
-    K : DeltaComplex
-        Closed, oriented, connected.
+    K : surface
+        As for :func:`~igl_periods.period_matrix`: closed, oriented, connected.
     bound : float
         The wanted bound, > 0.
     largest : int
@@ -114,7 +128,7 @@ def refined_period_matrix(
         with stage(f"refining {L.n_faces} faces"):
             if local:
                 excess = energy_excess(L, cochains, potentials, pm.dirichlet).sum(axis=0)
-                finer = insert_barycentres(L, cochains, _marked(excess)[: room // 2])
+                finer = insert_barycentres(L, cochains, most_of(excess, _MARKED_PART)[: room // 2])
             else:
                 finer = split(L, cochains)
             L, cochains = intrinsic_delaunay(*finer)
@@ -131,10 +145,3 @@ def _period_matrix(
     D = dirichlet_matrix(L, cochains, potentials)
     rounding = geometric_allowance(L, D, partial(dirichlet_matrix, L, cochains, potentials))
     return PeriodMatrix(D, True, cocycles, K, max(LEAST_ALLOWANCE, rounding))
-
-
-def _marked(excess: Floats) -> Ints:
-    """The fewest faces that hold half of the excess, the worst first."""
-    order = np.argsort(-excess, kind="stable")
-    held = np.cumsum(excess[order])
-    return order[: 1 + int(np.searchsorted(held, _MARKED_PART * held[-1]))]
