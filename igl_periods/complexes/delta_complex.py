@@ -378,5 +378,6 @@ def _check_fans(twin: Ints, same: NDArray[np.bool_], corner_vertex: Ints, labels
     bad = np.flatnonzero(count > 1)
     raise MeshError(
         f"{bad.size} vertices join more than one fan of faces; the first, vertex {labels[bad[0]]}, "
-        f"joins {count[bad[0]]}. The surface pinches there: split such vertices, one copy per fan."
+        f"joins {count[bad[0]]}. The surface pinches there: split such vertices, one copy per fan "
+        "(load_mesh(…, repair=True), --repair)."
     )

@@ -84,7 +84,8 @@ def _raise_crowded_edge(key: Ints, order: Ints, tail: Ints, head: Ints) -> None:
     raise MeshError(
         f"{bad.size} edges border more than two faces; the first, from vertex {tail[half_edge]} to "
         f"{head[half_edge]}, borders {count[bad[0]]}. A surface has at most two faces at an edge: "
-        "look for duplicate faces, internal walls or sheets that touch, and split them there."
+        "look for duplicate faces, internal walls or sheets that touch, and split them there "
+        "(load_mesh(…, repair=True), --repair)."
     )
 
 

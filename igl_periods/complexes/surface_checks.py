@@ -35,8 +35,11 @@ def check_closed_and_oriented(K: DeltaComplex) -> None:
     """The first two thirds of :func:`check_surface`."""
     if K.n_boundary_edges:
         raise ComplexError(
-            f"the surface is not closed: it has {K.n_boundary_edges} boundary edges. Fill the "
-            "holes, or take the double of the surface (igl_periods.double, --double)."
+            f"the surface is not closed: it has {K.n_boundary_edges} boundary edges. "
+            "Where the file repeats vertices they are seams: weld them first (load_mesh(…, "
+            "repair=True), --repair). Holes can be filled (largest_hole=SIZE, --fill-holes SIZE), "
+            "and a surface with a true boundary has a double, which is closed "
+            "(igl_periods.double, --double)."
         )
     if K.n_reversing_edges:
         if is_orientable(K):

@@ -3,7 +3,7 @@
 None of these libraries is imported.  What their meshes have in common is little: positions are
 called vertices, points, or ``vertex.positions``; faces may be rows, rows with leading counts in
 one array, or blocks of equal cells; and ``triangles`` of trimesh are coordinates.  What is no mesh
-of triangles or convex polygons is refused, with what its own library does about it.
+of triangles or polygons is refused, with what its own library does about it.
 """
 
 from __future__ import annotations
@@ -17,7 +17,8 @@ from igl_periods.arrays import Floats, Ints
 from igl_periods.complexes import check_finite, checked_positions, mesh_reader
 from igl_periods.errors import MeshError
 
-from .formats.mesh_file import checked_degrees, fans
+from .formats.mesh_file import checked_degrees
+from .polygons import triangulated
 
 _Mesh = tuple[Any, Any]
 # Cells of meshio that are no faces.
@@ -31,7 +32,7 @@ def mesh_of_object(mesh: Any) -> _Mesh | None:
     Raises
     ------
     MeshError
-        If it is no mesh of triangles or convex polygons.
+        If it is no mesh of triangles or polygons, or a polygon crosses itself.
     """
     for cls in type(mesh).__mro__:
         reader = _READERS.get(cls.__module__.split(".")[0])
@@ -69,7 +70,7 @@ def _pyvista(mesh: Any) -> _Mesh:
         raise MeshError("the PolyData has strips of triangles: take mesh.triangulate().")
     corners, degrees = _with_leading_counts(np.asarray(mesh.faces, dtype=np.int64))
     V = checked_positions(mesh.points)
-    return V, _triangulated(V, corners, degrees, "take mesh.triangulate()")
+    return V, _triangles(V, corners, degrees)
 
 
 def _vtk(mesh: Any) -> _Mesh:
@@ -85,8 +86,7 @@ def _meshio(mesh: Any) -> _Mesh:
         if cells.type in ("triangle", "quad", "polygon"):
             rows = np.asarray(cells.data, dtype=np.int64)
             degrees = np.full(len(rows), rows.shape[1])
-            advice = "divide its quads and polygons into triangles"
-            blocks.append(_triangulated(V, rows.ravel(), degrees, advice))
+            blocks.append(_triangles(V, rows.ravel(), degrees))
         elif cells.type not in _NO_FACES:
             raise MeshError(
                 f"the meshio.Mesh has cells of type {cells.type!r}, and a surface is made of "
@@ -108,29 +108,19 @@ def _with_leading_counts(faces: Ints) -> tuple[Ints, Ints]:
     return np.delete(faces, starts), faces[starts]
 
 
-def _triangulated(V: Floats, corners: Ints, degrees: Ints, advice: str) -> Ints:
-    """Triangles, and the fans of convex polygons."""
+def _triangles(V: Floats, corners: Ints, degrees: Ints) -> Ints:
+    """Triangles, and polygons divided as those of files are."""
     if (degrees == 3).all():
         return corners.reshape(-1, 3)
-    F = fans(corners, checked_degrees(degrees))
-    if F.size and (F.min() < 0 or F.max() >= len(V)):
-        raise MeshError(f"faces refer to vertices {F.min()} to {F.max()}, and there are {len(V)}.")
-    check_finite(V, F)
+    checked_degrees(degrees)
+    if corners.min() < 0 or corners.max() >= len(V):
+        raise MeshError(
+            f"faces refer to vertices {corners.min()} to {corners.max()}, and there are {len(V)}."
+        )
+    check_finite(V, corners)
     space = np.zeros((len(V), 3))
     space[:, : V.shape[1]] = V[:, :3]
-    polygon = np.repeat(np.arange(degrees.size), degrees - 2)
-    a, b, c = space[F].swapaxes(0, 1)
-    areas = np.cross(b - a, c - a)
-    total = np.zeros((degrees.size, 3))
-    np.add.at(total, polygon, areas)
-    folded = np.unique(polygon[(areas * total[polygon]).sum(axis=1) <= 0.0])
-    if folded.size:
-        raise MeshError(
-            f"{folded.size} of {degrees.size} faces are polygons that are not convex, or degenerate"
-            f"; the first is face {folded[0]}, of {degrees[folded[0]]} corners. To have them "
-            f"divided well, {advice}."
-        )
-    return F
+    return triangulated(space, corners, degrees).F
 
 
 def _no_mesh(library: str, thing: Any, advice: str) -> MeshError:

@@ -9,25 +9,35 @@ from typing import Any
 from igl_periods.complexes import DeltaComplex, double, mesh_reader
 from igl_periods.errors import ComplexError
 
-from .formats.read import EXTENSIONS
+from .formats.read import EXTENSIONS, extension_of
 from .gluing_file import read_gluing
 from .load import load_mesh
 from .report import MeshReport
+from .seams import WELD
 
 _GLUING = ".json"
 # Extensions of the files that hold surfaces.
 SURFACE_EXTENSIONS = (*EXTENSIONS, _GLUING)
 
 
+def is_surface_file(name: str) -> bool:
+    """Whether a file of this name holds a surface, compressed or not."""
+    return Path(name).suffix.lower() == _GLUING or extension_of(name) in EXTENSIONS
+
+
 def read_surface(
-    path: str | PathLike[str], repair: bool = False
+    path: str | PathLike[str],
+    repair: bool = False,
+    *,
+    weld: float = WELD,
+    largest_hole: int = 0,
 ) -> tuple[tuple[Any, ...], MeshReport | None]:
     """Read a mesh, or a gluing of triangles (.json).
 
     Parameters
     ----------
     path : path-like
-    repair : bool
+    repair, weld, largest_hole
         As in :func:`load_mesh`; a gluing is never repaired.
 
     Returns
@@ -44,7 +54,7 @@ def read_surface(
     """
     if Path(path).suffix.lower() == _GLUING:
         return (read_gluing(path),), None
-    V, F, report = load_mesh(path, repair=repair)
+    V, F, report = load_mesh(path, repair=repair, weld=weld, largest_hole=largest_hole)
     return (V, F), report
 
 

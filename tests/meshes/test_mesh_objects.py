@@ -5,6 +5,7 @@ import pytest
 
 import igl_periods as ip
 from igl_periods.errors import MeshError
+from igl_periods.meshes import mesh_of_object
 from igl_periods.surfaces import torus_of_revolution
 
 V, F = torus_of_revolution(2.0, 0.9, 9, 7)
@@ -113,17 +114,22 @@ def _reduced(matrix):
 DART = np.array([[0.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.5, 1.0, 0.0], [0.0, 3.0, 0.0], [0, 0, 2]])
 
 
-def test_polygons_that_are_not_convex_are_refused_with_advice():
+def test_polygons_that_are_not_convex_are_divided_as_those_of_files():
     pyvista = pytest.importorskip("pyvista", reason="PyVista is not installed (extra test)")
     meshio = pytest.importorskip("meshio", reason="meshio is not installed (extra test)")
     dart, walls = [1, 2, 3, 0], [[1, 0, 4], [2, 1, 4], [3, 2, 4], [0, 3, 4]]
     faces = [4, *dart, *(k for wall in walls for k in (3, *wall))]
-    mesh = pyvista.PolyData(DART, faces)
-    with pytest.raises(MeshError, match=r"1 of 5 faces are polygons .* mesh\.triangulate\(\)"):
-        ip.period_matrix(mesh)
-    assert ip.period_matrix(mesh.triangulate()).genus == 0
-    with pytest.raises(MeshError, match="the first is face 0, of 4 corners"):
-        ip.period_matrix(meshio.Mesh(DART, [("quad", [dart]), ("triangle", walls)]))
+    for mesh in (
+        pyvista.PolyData(DART, faces),
+        meshio.Mesh(DART, [("quad", [dart]), ("triangle", walls)]),
+    ):
+        V, F = mesh_of_object(mesh)
+        # At its reflex corner, which both triangles have.
+        assert (F == 2).any(axis=1)[:2].all()
+        assert ip.period_matrix(V, F).genus == 0
+    bow_tie = meshio.Mesh(DART, [("quad", [[0, 1, 3, 2]]), ("quad", [[0, 3, 1, 2]])])
+    with pytest.raises(MeshError, match="crosses itself"):
+        ip.period_matrix(bow_tie)
 
 
 # ---- What is no mesh of triangles ----

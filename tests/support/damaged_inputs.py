@@ -8,7 +8,7 @@ import warnings
 
 import numpy as np
 from hypothesis import strategies as st
-from support.mesh_files import cube, fbx, glb, gltf, halved, obj, off, ply, stl, torus
+from support.mesh_files import cube, glb, gltf, halved, obj, off, ply, stl, torus
 from support.random_surfaces import needle_gluing, random_gluing, random_lengths
 
 _SEEDS = st.integers(0, 2**32 - 1)
@@ -40,13 +40,12 @@ FILES = [
         (".stl", stl(V, _triangles(F), binary=True)),
     )
 ] + [(".json", _gluing_file())]
-OPEN3D = [
+SCENES = [
     file
     for V, F in _MESHES
     for file in (
         (".gltf", gltf(V, _triangles(F)).encode()),
         (".glb", glb(V, _triangles(F))),
-        (".fbx", fbx(V, _triangles(F)).encode()),
     )
 ]
 

@@ -111,23 +111,6 @@ def glb(V, F) -> bytes:
     return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
 
-def fbx(V, F) -> str:
-    """A minimal text file of FBX 7.4."""
-    points = ",".join(repr(x) for x in np.asarray(V, float).ravel().tolist())
-    corners = ",".join(f"{a},{b},{-c - 1}" for a, b, c in np.asarray(F).tolist())
-    return (
-        "; FBX 7.4.0 project file\n"
-        "FBXHeaderExtension:  {\n FBXHeaderVersion: 1003\n FBXVersion: 7400\n}\n"
-        "GlobalSettings:  {\n Version: 1000\n}\n"
-        "Definitions:  {\n Version: 100\n Count: 2\n}\n"
-        'Objects:  {\n Geometry: 1000, "Geometry::m", "Mesh" {\n'
-        f"  Vertices: *{3 * len(V)} {{\n   a: {points}\n  }}\n"
-        f"  PolygonVertexIndex: *{3 * len(F)} {{\n   a: {corners}\n  }}\n"
-        '  GeometryVersion: 124\n }\n Model: 2000, "Model::m", "Mesh" {\n  Version: 232\n }\n}\n'
-        'Connections:  {\n C: "OO",2000,0\n C: "OO",1000,2000\n}\n'
-    )
-
-
 def written(path: Path, content: str | bytes) -> Path:
     path.write_bytes(content if isinstance(content, bytes) else content.encode())
     return path

@@ -21,8 +21,8 @@ HOLES = st.sampled_from([0, 4, 100])
 # Kind of example: a strategy, and how many examples the default and the slow suite judge.
 KINDS = {
     "file": (st.tuples(damaged_inputs.files(), st.booleans(), HOLES), 120, 5000),
-    "Open3D file": (
-        st.tuples(damaged_inputs.files(damaged_inputs.OPEN3D), st.booleans(), HOLES),
+    "scene file": (
+        st.tuples(damaged_inputs.files(damaged_inputs.SCENES), st.booleans(), HOLES),
         40,
         1000,
     ),

@@ -21,6 +21,12 @@ TESTED_ELSEWHERE = {
     "distributed/__main__.py": "tests/distributed/test_command.py",
     "genus_two.py": "tests/moduli/test_genus_two.py",
     "errors.py": "the tests of the modules that raise them",
+    "meshes/formats/compression.py": "tests/meshes/formats/test_read_dialects.py",
+    "meshes/formats/gltf_accessors.py": "tests/meshes/formats/test_gltf.py",
+    "meshes/formats/mesh_file.py": "tests/meshes/formats/test_read.py",
+    "meshes/formats/placement.py": "tests/meshes/formats/test_gltf.py",
+    "meshes/formats/ply_tables.py": "tests/meshes/formats/test_ply.py",
+    "meshes/outlines.py": "tests/meshes/test_polygons.py",
     "surfaces/lawson/chart.py": "tests/surfaces/lawson/test_unstructured.py",
     "surfaces/named_surface.py": "tests/surfaces/test_named_surfaces.py",
 }

@@ -6,7 +6,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from igl_periods.meshes.formats.ply import read_ply
+from igl_periods.meshes.formats.ply import mesh_from_ply
 
 V = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 7]]
 TRIANGLES = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]
@@ -45,7 +45,8 @@ def ply(faces, form, number, count, index):
 @pytest.mark.parametrize("faces", [TRIANGLES, MIXED], ids=["triangles", "mixed"])
 def test_every_type_of_number_says_the_same(form, faces):
     for number, (count, index) in product(CODES, zip(INTEGERS, reversed(INTEGERS))):
-        points, corners, degrees = read_ply(ply(faces, form, number, count, index))
+        mesh = mesh_from_ply(ply(faces, form, number, count, index))
+        points, corners, degrees = mesh.V, mesh.corners, mesh.degrees
         assert points.dtype == np.float64
         assert points.tolist() == V
         assert corners.tolist() == [corner for face in faces for corner in face]
