@@ -36,11 +36,12 @@ from .errors import (
     EnumerationLimitError,
     MemoryLimitError,
     MeshError,
+    MissingExtraError,
     NotASiegelPointError,
     PeriodsError,
     RenderError,
 )
-from .meshes import MeshReport, load_mesh, split_components
+from .meshes import MeshReport, load_mesh, sample_files, split_components
 from .complexes import DeltaComplex, double, intrinsic_delaunay
 from .topology import (
     cohomology_basis,
@@ -105,6 +106,7 @@ __all__ = [
     # meshes and complexes
     "load_mesh",
     "split_components",
+    "sample_files",
     "MeshReport",
     "DeltaComplex",
     "double",
@@ -170,6 +172,7 @@ __all__ = [
     "ComplexError",
     "NotASiegelPointError",
     "MemoryLimitError",
+    "MissingExtraError",
     "EnumerationLimitError",
     "RenderError",
     "BatchError",

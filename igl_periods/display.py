@@ -31,6 +31,11 @@ _PLAIN_DECIMALS = 6
 _EPS = 2.0**-52
 
 
+def counted(count: int, one: str, many: str) -> str:
+    """``1 edge``, ``3 edges``."""
+    return f"{count} {one if count == 1 else many}"
+
+
 def known_decimals(bound: float) -> int:
     """The largest d with bound ≤ 10^−d; negative where not even the units are known."""
     d = math.floor(-math.log10(bound))

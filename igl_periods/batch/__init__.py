@@ -12,6 +12,10 @@ it stopped; when all files have their rows, they are written in the order of the
 
 from igl_periods.errors import BatchError
 
+from igl_periods.extras import require
+
+require("a batch", "dask", "distributed", "pyarrow")
+
 from .files import find_files
 from .rows import BatchOptions, rows_of
 from .cluster import local_cluster, remote_cluster

@@ -12,10 +12,11 @@ import sys
 import warnings
 from collections.abc import Sequence
 
-from igl_periods.errors import PeriodsError
+from igl_periods.errors import MissingExtraError, PeriodsError
 
 from .batch import add_batch
 from .compute import add_compute
+from .demo import add_demo
 from .identify import add_identify
 from .render import add_render
 from .report import add_report
@@ -25,6 +26,7 @@ from .view import add_view
 
 # In the order in which they are listed.
 _COMMANDS = (
+    add_demo,
     add_compute,
     add_identify,
     add_render,
@@ -50,7 +52,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # Whoever reads the output has had enough, as ``head`` does.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
-    except OSError as error:
+    except (OSError, MissingExtraError) as error:
         return refused(str(error))
     except (ValueError, PeriodsError) as error:
         message, mesh = str(error), getattr(options, "mesh", "")

@@ -40,9 +40,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from igl_periods.arrays import Floats, Ints
-from igl_periods.display import facts_html
+from igl_periods.display import counted, facts_html
 from igl_periods.errors import MeshError
-from igl_periods.wording import counted
 
 from .checked_arrays import (
     check_equal_when_glued,

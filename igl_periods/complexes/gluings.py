@@ -178,7 +178,7 @@ def fans_are_whole(twin: Ints, corner_vertex: Ints, n_vertices: int) -> bool:
     # The corner at the same vertex in the face across the side before it.
     onward = twin.ravel()[next_corner(half_edge, 2)]
     onward = next_corner(onward, 2)
-    first = np.empty(n_vertices, dtype=np.int64)
+    first: Ints = np.empty(n_vertices, dtype=np.int64)
     first[corners] = half_edge
     met, corner = 0, first
     while corner.size:

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from igl_periods.display import counted
 from igl_periods.errors import ComplexError
-from igl_periods.wording import counted
 
 from .gluings import face_components, orientable_faces, reversing_sides
 

@@ -21,11 +21,13 @@ loops, the report says what keeps a mesh from having a period matrix.
 ``gluing_file``     triangles glued as a JSON file says
 ``surface_files``   either of them, its double, its components
 ``mesh_objects``    meshes of trimesh, Open3D, PyVista, meshio
+``samples``         surfaces for a first try, which come with the package
 ==================  ===========================================================================
 """
 
 from .load import load_mesh, split_components
 from .report import MeshReport
+from .samples import SAMPLES, sample_files
 from .advice import way_out
 from .seams import WELD
 from .surface_files import (
@@ -40,6 +42,8 @@ from .mesh_objects import mesh_of_object
 __all__ = [
     "load_mesh",
     "MeshReport",
+    "SAMPLES",
+    "sample_files",
     "way_out",
     "WELD",
     "components_by_genus",

@@ -28,7 +28,7 @@ from igl_periods.complexes import (
     next_corner,
     orientable_faces,
 )
-from igl_periods.wording import counted
+from igl_periods.display import counted
 
 from .seams import WELD, seam_sides, tolerance_of
 from .welding import first_equal_row

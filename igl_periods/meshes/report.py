@@ -6,8 +6,7 @@ from collections import Counter
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from igl_periods.display import lines_html
-from igl_periods.wording import counted
+from igl_periods.display import counted, lines_html
 
 from .facts import MeshFacts
 

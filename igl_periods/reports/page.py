@@ -24,6 +24,7 @@ from igl_periods.arrays import Floats
 from igl_periods.differentials import Parametrization, most_even_form, parametrize
 from igl_periods.display import LARGEST_SHOWN, matrix_html, rounded_up
 from igl_periods.errors import ComplexError, RenderError
+from igl_periods.extras import require
 from igl_periods.meshes import MeshReport
 from igl_periods.periods import MeshQuality, PeriodMatrix, mesh_quality
 from igl_periods.pictures import (
@@ -74,7 +75,13 @@ def write_report(
         What :func:`~igl_periods.load_mesh` found in its file.
     size : (int, int)
         Width and height of the pictures in pixels.
+
+    Raises
+    ------
+    MissingExtraError
+        If matplotlib, Open3D or Pillow are not installed.
     """
+    require("a report", "matplotlib", "open3d", "PIL")
     quality = mesh_quality(pm.complex)
     P = parametrize(pm, most_even_form(pm)) if pm.genus else None
     page = Template(files(__package__).joinpath("page.html").read_text("utf-8"))

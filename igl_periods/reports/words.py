@@ -8,9 +8,8 @@ from __future__ import annotations
 import numpy as np
 
 from igl_periods.differentials import Parametrization
-from igl_periods.display import rounded_up
+from igl_periods.display import counted, rounded_up
 from igl_periods.periods import WIDE, MeshQuality, PeriodMatrix
-from igl_periods.wording import counted
 
 
 def parametrization_in_words(P: Parametrization) -> list[str]:

@@ -106,7 +106,7 @@ def without_returns(walk: Ints, twin: Ints) -> Ints:
 def _combined(K: DeltaComplex, loops: list[Ints], coefficients: Ints) -> Ints:
     """Loops with one base point, run through one after the other."""
     twin = K.twin.ravel()
-    parts = [np.zeros(0, dtype=np.int64)]
+    parts: list[Ints] = [np.zeros(0, dtype=np.int64)]
     for k in np.flatnonzero(coefficients):
         loop = loops[k] if coefficients[k] > 0 else reversed_walk(loops[k], twin)
         parts += [loop] * int(abs(coefficients[k]))

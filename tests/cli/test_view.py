@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from igl_periods.errors import RenderError
+from igl_periods.pictures import rendering
 from igl_periods.pictures.rendering import check_display
 
 LAWSON = Path(__file__).parents[2] / "data" / "lawson_2_1.off"
@@ -18,14 +19,12 @@ def test_view_needs_a_display(command, capsys):
 
 
 def test_view_shows_the_scene_in_a_window(command, monkeypatch, capsys):
-    import open3d
-
     shown = []
     monkeypatch.setenv("DISPLAY", ":0")
-    monkeypatch.setattr(open3d.visualization, "draw", lambda parts, **_: shown.extend(parts))
+    monkeypatch.setattr(rendering, "_run_open3d", lambda folder, task, seconds: shown.extend(task))
     assert command("view", LAWSON, "--show", "cut") == 0
-    assert [part["name"] for part in shown] == ["surface", "marks"]
-    surface, marks = (part["geometry"] for part in shown)
-    assert len(surface.triangles) == 1536
-    assert len(marks.triangles) > 1000
+    task, scene, title = shown
+    assert (task, title) == ("show", "lawson_2_1.off")
+    assert len(scene.F) == 1536
+    assert len(scene.tubes) > 0
     assert "The cut that makes the surface a disk" in capsys.readouterr().out

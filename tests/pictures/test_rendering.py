@@ -1,8 +1,5 @@
 """Rendering: what is drawn, and what cannot be."""
 
-import builtins
-import ctypes
-
 import numpy as np
 import pytest
 from PIL import Image
@@ -11,6 +8,7 @@ from support.rendered_pictures import SIZE, count_near, is_drawn
 
 import igl_periods as ip
 from igl_periods.errors import RenderError
+from igl_periods.pictures import rendering
 from igl_periods.pictures.rendering import render, save, with_legend
 from igl_periods.pictures.scenes import (
     Scene,
@@ -59,6 +57,28 @@ def test_nothing_is_said_while_drawing(torus, capfd):
     assert capfd.readouterr() == ("", "")
 
 
+def test_the_background_is_white_and_pictures_are_repeatable(torus):
+    scene = cycles_scene(torus)
+    picture = render(scene, SIZE)
+    assert np.array_equal(picture, render(scene, SIZE))
+    # Nothing is drawn beyond the silhouette, and everything there is exactly white.
+    rows, columns = np.nonzero((picture < 255).any(axis=2))
+    assert min(rows.min(), columns.min()) > 0
+    assert rows.max() < SIZE[1] - 1
+    assert columns.max() < SIZE[0] - 1
+    assert 0.2 < (picture == 255).all(axis=2).mean() < 0.8
+
+
+def test_the_nearer_of_two_parts_is_seen(torus):
+    # A ball in the hole, where one looks down the axis; from the side the torus is before it.
+    V, F = surface_in_space(torus.complex)
+    red = (1, 0, 0)
+    ball = Scene(V, F, np.full(V.shape, 0.8), balls=((np.zeros((1, 3)), 0.05, red),))
+    above, aside = render(ball, SIZE, (0, 0, 1)), render(ball, SIZE, (1, 0, 0))
+    assert count_near(above, red) > 100
+    assert count_near(aside, red) == 0
+
+
 def test_what_cannot_be_drawn_is_refused(torus):
     scene = plain_scene(torus.complex)
     for size in ((0, 10), (10, 5000)):
@@ -76,48 +96,18 @@ def test_what_cannot_be_drawn_is_refused(torus):
 
 
 @pytest.mark.parametrize(
-    ("message", "expected"),
+    ("program", "message"),
     [
-        ("libX11.so.6: cannot open shared object file", "libX11.so.6 is missing.*libx11-6"),
-        ("libusb-1.0.so.0: cannot open shared object", "libusb-1.0.so.0 is missing.*libusb-1.0-0"),
-        ("libunheard.so.3: cannot open", r"libunheard.so.3 is missing\."),
-        ("No module named 'open3d'", "pip install open3d"),
+        ("import time; time.sleep(600)", "has not drawn the picture in .* s, and was ended"),
+        (
+            "import os; os.write(2, b'no driver\\n\\n'); os.abort()",
+            "ended while drawing, by SIGABRT. The last that it said: no driver$",
+        ),
+        ("raise SystemExit(3)", "ended while drawing, with exit code 3. .*said: nothing$"),
     ],
 )
-def test_what_open3d_lacks_is_named(torus, monkeypatch, message, expected):
-    original = builtins.__import__
-
-    def broken(name, *arguments, **options):
-        if name == "open3d":
-            raise (ImportError if "module" in message else OSError)(message)
-        return original(name, *arguments, **options)
-
-    monkeypatch.setattr(builtins, "__import__", broken)
-    with pytest.raises(RenderError, match=expected):
-        render(plain_scene(torus.complex), SIZE)
-
-
-def test_missing_egl_is_named(torus, monkeypatch):
-    scene = plain_scene(torus.complex)
-
-    class NoDriver:
-        def __init__(self, name):
-            self.eglGetPlatformDisplay = self.eglGetDisplay = Refusing()
-            self.eglInitialize = Refusing()
-
-    class Refusing:
-        restype = None
-
-        def __call__(self, *arguments):
-            return 0
-
-    monkeypatch.setattr(ctypes, "CDLL", NoDriver)
-    with pytest.raises(RenderError, match=r"EGL finds no driver.*libegl-mesa0"):
-        render(scene, SIZE)
-
-    def missing(name):
-        raise OSError(f"{name}: cannot open shared object file")
-
-    monkeypatch.setattr(ctypes, "CDLL", missing)
-    with pytest.raises(RenderError, match=r"libEGL.so.1 is missing.*libegl1"):
-        render(scene, SIZE)
+def test_open3d_may_hang_or_abort(torus, monkeypatch, program, message):
+    monkeypatch.setattr(rendering, "_PROGRAM", program)
+    monkeypatch.setattr(rendering, "_START", 0.5)
+    with pytest.raises(RenderError, match=message):
+        render(plain_scene(torus.complex), (4, 3))

@@ -29,7 +29,6 @@ TESTED_ELSEWHERE = {
     "meshes/outlines.py": "tests/meshes/test_polygons.py",
     "surfaces/lawson/chart.py": "tests/surfaces/lawson/test_unstructured.py",
     "surfaces/named_surface.py": "tests/surfaces/test_named_surfaces.py",
-    "wording.py": "tests/meshes/test_report.py",
 }
 
 # Rooms that a user enters by ``ip.…``.
