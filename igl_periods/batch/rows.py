@@ -35,7 +35,7 @@ from typing import Any
 
 from threadpoolctl import ThreadpoolController
 
-from igl_periods.complexes import DeltaComplex
+from igl_periods.complexes import DeltaComplex, as_complex
 from igl_periods.meshes import MeshReport, components_by_genus, read_surface, surface_of
 from igl_periods.moduli import (
     absolute_igusa_invariants,
@@ -45,7 +45,6 @@ from igl_periods.moduli import (
 from igl_periods.periods import (
     PeriodMatrix,
     ToleranceWarning,
-    as_complex,
     check_options,
     period_matrix,
     reduced_if_feasible,

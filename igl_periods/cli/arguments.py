@@ -5,9 +5,8 @@ from __future__ import annotations
 import argparse
 from typing import Any, TypeAlias
 
-from igl_periods.complexes import DeltaComplex
+from igl_periods.complexes import DeltaComplex, as_complex
 from igl_periods.meshes import MeshReport, components_by_genus, read_surface, surface_of
-from igl_periods.periods import as_complex
 from igl_periods.run_log import stage
 
 ALL = "all"

@@ -12,7 +12,7 @@ import sys
 import warnings
 from collections.abc import Sequence
 
-from igl_periods.errors import MissingExtraError
+from igl_periods.errors import MissingExtraError, PeriodsError
 
 from .batch import add_batch
 from .compute import add_compute
@@ -40,7 +40,7 @@ _COMMANDS = (
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns the exit code."""
     options = _parser().parse_args(arguments)
-    if sys.stderr.isatty() and not options.quiet:
+    if sys.stderr.isatty() and not getattr(options, "quiet", False):
         show_stages()
     try:
         with warnings.catch_warnings(record=True) as caught:
@@ -54,7 +54,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 0
     except (OSError, MissingExtraError) as error:
         return refused(str(error))
-    except ValueError as error:
+    except (ValueError, PeriodsError) as error:
         message, mesh = str(error), getattr(options, "mesh", "")
         return refused(message if mesh in message else f"{mesh}: {message}")
 

@@ -22,6 +22,8 @@ barycentres, the double.  The surface stays what it is, and the classes go along
 ``gluings``               which side is glued to which: twins, vertices, components
 ``glued_squares``         unit squares glued along sides, and grids of them
 ``delta_complex``         the complex itself
+``mesh_readers``          who knows how to read a mesh that is no V, F
+``surface_arguments``     whatever is called a surface, as a complex
 ``surface_checks``        closed, oriented, connected: what a period matrix needs
 ``half_edges``            both directions of every edge
 ``weights``               cotangent and extrinsic weights, cone angles
@@ -58,7 +60,15 @@ from .gluings import (
 )
 from .glued_squares import periodic_grid, squares
 from .half_edges import edge_ends, forward_half_edges, half_edge_ends, walk_vertices
+from .mesh_readers import is_array_like, mesh_reader
 from .delta_complex import DeltaComplex
+from .surface_arguments import (
+    BYTES_A_FACE_FLIPPING,
+    SurfaceLike,
+    as_complex,
+    of_a_surface,
+    of_a_surface_or,
+)
 from .surface_checks import check_closed_and_oriented, check_connected, check_surface, is_orientable
 from .weights import cone_angles, cotan_weights, extrinsic_weights
 from .cochains import along_sides, primitive
@@ -96,7 +106,14 @@ __all__ = [
     "check_connected",
     "check_surface",
     "is_orientable",
+    "is_array_like",
+    "mesh_reader",
     "DeltaComplex",
+    "BYTES_A_FACE_FLIPPING",
+    "SurfaceLike",
+    "as_complex",
+    "of_a_surface",
+    "of_a_surface_or",
     "cone_angles",
     "cotan_weights",
     "extrinsic_weights",

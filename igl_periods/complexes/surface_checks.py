@@ -7,11 +7,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from igl_periods.errors import ComplexError
+from igl_periods.wording import counted
 
 from .gluings import face_components, orientable_faces, reversing_sides
 
 if TYPE_CHECKING:
     from .delta_complex import DeltaComplex
+
+
+# Faces up to which a complex says more than its size when it is shown.
+_QUICKLY_SHOWN = 200_000
 
 
 def check_surface(K: DeltaComplex) -> None:
@@ -61,3 +66,16 @@ def check_connected(K: DeltaComplex) -> None:
 def is_orientable(K: DeltaComplex) -> bool:
     """Whether faces can be turned so that orientations agree."""
     return bool(orientable_faces(K.twin, reversing_sides(K.twin, K.sign)).all())
+
+
+def topology_in_words(K: DeltaComplex) -> list[str]:
+    """The genus, or what keeps the complex from having one; nothing where that takes long."""
+    if K.n_faces > _QUICKLY_SHOWN:
+        return []
+    n_components, _ = face_components(K.twin)
+    words = [f"{n_components} components"] if n_components != 1 else []
+    if K.n_boundary_edges:
+        words.append(counted(K.n_boundary_edges, "boundary edge", "boundary edges"))
+    if K.n_reversing_edges:
+        words.append("not oriented consistently" if is_orientable(K) else "not orientable")
+    return words or [f"genus {K.genus}"]

@@ -15,6 +15,7 @@ loops, the report says what keeps a mesh from having a period matrix.
 ``formats``         OBJ, OFF, PLY, STL, and what Open3D reads
 ``gluing_file``     triangles glued as a JSON file says
 ``surface_files``   either of them, its double, its components
+``mesh_objects``    meshes of trimesh, Open3D, PyVista, meshio
 ``samples``         surfaces for a first try, which come with the package
 ==================  ===========================================================================
 """
@@ -23,6 +24,7 @@ from .load import load_mesh, split_components
 from .report import MeshReport
 from .samples import SAMPLES, sample_files
 from .surface_files import SURFACE_EXTENSIONS, components_by_genus, read_surface, surface_of
+from .mesh_objects import mesh_of_object
 
 __all__ = [
     "load_mesh",
@@ -33,5 +35,6 @@ __all__ = [
     "read_surface",
     "SURFACE_EXTENSIONS",
     "surface_of",
+    "mesh_of_object",
     "split_components",
 ]

@@ -103,6 +103,11 @@ class MeshFacts:
     inconsistent_edges: int
     components: tuple[MeshComponent, ...]
 
+    def __repr__(self) -> str:
+        size = f"{self.vertices} vertices, {self.triangles} triangles"
+        parts = counted(len(self.components), "component", "components")
+        return f"MeshFacts({size}, {parts}, {counted(len(self.defects()), 'defect', 'defects')})"
+
     @property
     def is_closed_surface(self) -> bool:
         """Whether the mesh is one closed, consistently oriented surface."""

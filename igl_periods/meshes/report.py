@@ -6,6 +6,7 @@ from collections import Counter
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from igl_periods.display import lines_html
 from igl_periods.wording import counted
 
 from .facts import MeshFacts
@@ -57,6 +58,15 @@ class MeshReport:
             document[key]["defects"] = facts.defects()
         document["repair"] = [asdict(step) for step in self.repair]
         return document
+
+    def __repr__(self) -> str:
+        defects = counted(len(self.result.defects()), "defect", "defects")
+        steps = sum(step.changed > 0 for step in self.repair)
+        repaired = f", {counted(steps, 'step', 'steps')} of repair" if self.repair else ""
+        return f"MeshReport({self.file!r}: {_size(self.result)}, {defects}{repaired})"
+
+    def _repr_html_(self) -> str:
+        return lines_html("MeshReport", str(self).splitlines())
 
     def __str__(self) -> str:
         """Lines to be read by a person."""

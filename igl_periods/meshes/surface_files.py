@@ -6,7 +6,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from igl_periods.complexes import DeltaComplex, double
+from igl_periods.complexes import DeltaComplex, double, mesh_reader
 from igl_periods.errors import ComplexError
 
 from .formats.read import EXTENSIONS
@@ -33,7 +33,7 @@ def read_surface(
     Returns
     -------
     surface : tuple
-        ``(V, F)`` or ``(K,)``: the arguments of :func:`~igl_periods.periods.arguments.as_complex`.
+        ``(V, F)`` or ``(K,)``: the arguments of :func:`~igl_periods.complexes.as_complex`.
     report : MeshReport or None
         None for a gluing.
 
@@ -46,6 +46,15 @@ def read_surface(
         return (read_gluing(path),), None
     V, F, report = load_mesh(path, repair=repair)
     return (V, F), report
+
+
+@mesh_reader
+def surface_at_path(path: Any) -> tuple[Any, Any] | DeltaComplex | None:
+    """V and F, or the complex, of the file at a path; None of what is no path."""
+    if not isinstance(path, (str, PathLike)):
+        return None
+    surface, _ = read_surface(path)
+    return surface[0] if len(surface) == 1 else (surface[0], surface[1])
 
 
 def surface_of(

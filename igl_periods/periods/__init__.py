@@ -14,7 +14,7 @@ d the largest symplectic eigenvalue of D: the *bound*.  It is about the polyhedr
 triangles have the stored lengths.
 
 ====================  =========================================================================
-``arguments``         surfaces and options as callers hand them over
+``arguments``         options and weights as callers hand them over
 ``memory_estimates``  what a computation will take, before it is begun
 ``rounding``          what rounding can change between D and Π
 ``matrix``            the period matrix, its estimates and its bound
@@ -25,6 +25,7 @@ triangles have the stored lengths.
 ``quality``           what limits the accuracy of a mesh
 ``extrapolation``     smooth surfaces from several meshes, uncertified
 ``real_surfaces``     the real structure of a double
+``recognition``       how a surface is recognised by its matrix
 ====================  =========================================================================
 
 References
@@ -32,7 +33,7 @@ References
 Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 3.
 """
 
-from .arguments import as_complex, check_options
+from .arguments import check_options
 from .matrix import PeriodMatrix, reduced_if_feasible, siegel_reduced
 from .certificate import certified_period_matrix
 from .adaptive_degree import ToleranceWarning
@@ -41,9 +42,9 @@ from .adaptive_mesh import Refined, refined_period_matrix
 from .quality import MeshQuality, WIDE, mesh_quality
 from .extrapolation import Extrapolation, richardson, sampled_torus
 from .real_surfaces import real_structure
+from .recognition import matrix_of_complex
 
 __all__ = [
-    "as_complex",
     "check_options",
     "PeriodMatrix",
     "siegel_reduced",
@@ -52,6 +53,7 @@ __all__ = [
     "ToleranceWarning",
     "period_matrix",
     "period_matrix_from_weights",
+    "Refined",
     "refined_period_matrix",
     "mesh_quality",
     "MeshQuality",
@@ -59,6 +61,6 @@ __all__ = [
     "Extrapolation",
     "richardson",
     "real_structure",
+    "matrix_of_complex",
     "sampled_torus",
-    "Refined",
 ]

@@ -18,7 +18,14 @@ from scipy.sparse import csc_matrix
 
 from igl_periods import elements
 from igl_periods.arrays import Floats
-from igl_periods.complexes import DeltaComplex, MarkedComplex, extrinsic_weights, intrinsic_delaunay
+from igl_periods.complexes import (
+    DeltaComplex,
+    MarkedComplex,
+    SurfaceLike,
+    as_complex,
+    extrinsic_weights,
+    intrinsic_delaunay,
+)
 from igl_periods.elements import high_order_forms, separate_cones
 from igl_periods.harmonic import (
     HarmonicProblem,
@@ -32,14 +39,14 @@ from igl_periods.run_log import stage
 from igl_periods.topology import mark
 
 from .adaptive_degree import period_matrix_within
-from .arguments import as_complex, check_options, edge_weights
+from .arguments import check_options, edge_weights
 from .certificate import certified_period_matrix
 from .matrix import PeriodMatrix
 from .memory_estimates import check_high_order, room_for_forms
 
 
 def period_matrix(
-    surface: DeltaComplex | ArrayLike,
+    surface: SurfaceLike | ArrayLike,
     F: ArrayLike | None = None,
     *,
     weights: str = "intrinsic",
@@ -53,9 +60,10 @@ def period_matrix(
 
     Parameters
     ----------
-    surface : (n, d) array-like, DeltaComplex, or mesh object
-        Vertex positions V of a triangle mesh, a complex, or an object with ``vertices`` and
-        ``triangles`` or ``faces``, such as Open3D's ``TriangleMesh``.
+    surface : surface
+        Vertex positions V (n, d) of a triangle mesh, with F; a :class:`DeltaComplex`; ``(V, F)``;
+        a path; or a mesh of trimesh, Open3D, PyVista or meshio
+        (:func:`~igl_periods.complexes.as_complex`).
     F : (m, 3) array-like of int, optional
         Corners of the triangles, with V.
     weights : {"intrinsic", "extrinsic"}

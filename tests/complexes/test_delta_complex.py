@@ -69,7 +69,7 @@ def test_complexes_do_not_share_memory_with_what_they_were_made_from():
     assert np.array_equal(ip.period_matrix(K).matrix, expected)
     with pytest.raises(ValueError, match="read-only"):
         K.lengths[0, 0] = 1.0
-    assert repr(K) == "DeltaComplex(30 vertices, 90 edges, 60 faces)"
+    assert repr(K) == "DeltaComplex(30 vertices, 90 edges, 60 faces; genus 1)"
 
 
 def test_labels_far_apart():

@@ -34,7 +34,7 @@ def test_no_two_entries_are_the_same_surface(genus):
     assert all(entry.source for entry in entries)
     for one, two in combinations(entries, 2):
         found = symplectic_isomorphisms(one.matrix, two.matrix, 1e-3)
-        assert found == []
+        assert found == [], f"{one.name} and {two.name} are the same surface"
         assert found.complete
 
 

@@ -46,7 +46,10 @@ def test_no_module_has_the_name_of_a_public_function_of_its_package(face):
     public = {
         name for name in package.__all__ if not isinstance(getattr(package, name), types.ModuleType)
     }
-    assert not modules & public
+    same = modules & public
+    assert not same, (
+        f"{face.parent.name}: {same} are modules and public functions: rename the modules"
+    )
 
 
 def test_public_names_that_are_modules_are_meant():
@@ -76,7 +79,8 @@ def test_faces_say_what_is_inside_and_export_it(face):
 def test_every_module_has_its_tests(path):
     name = relative(path)
     mirror = ROOT / "tests" / path.relative_to(SOURCE).with_name(f"test_{path.name}")
-    assert mirror.exists() != (name in TESTED_ELSEWHERE), f"{name}: {mirror} or an exception"
+    tested = mirror.exists() != (name in TESTED_ELSEWHERE)
+    assert tested, f"write {mirror.relative_to(ROOT)}, or enter {name} in TESTED_ELSEWHERE"
 
 
 def test_exceptions_are_about_modules_that_exist():
