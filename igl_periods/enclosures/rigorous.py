@@ -1,0 +1,169 @@
+r"""Energies of the harmonic forms of a surface, proved: the steps, one after the other.
+
+    K, cochains ─ flips, in balls ▶ K′, cochains′, lengths ─ solve, in floats ▶ potentials
+         ─ energies, in balls ▶ E
+
+**Which surface.**  The theorem is about the polyhedral surface whose triangles have the side
+lengths that ``DeltaComplex.lengths`` stores, every one of them a floating-point number, taken
+exactly: after glued sides were averaged, and after mollification, if there was any.  For a mesh
+they are distances of its vertices, rounded.
+
+**What is trusted.**  Three things that are integers, and exact: the gluing, the cochains with
+their sums when edges are flipped, and the canonical basis of cohomology.  The values of the
+forms are trusted to be nothing: a solver found them, and any values do.  Everything else is done
+in balls: the lengths of flipped edges and that they can be flipped
+(:mod:`~igl_periods.enclosures.length_balls`), the shapes of triangles, the energies of the forms,
+and the last step to the period matrix (:mod:`~igl_periods.enclosures.relative_radius`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_array
+
+from igl_periods.adaptive import Triangulation
+from igl_periods.delaunay import delaunay_flips, transport
+from igl_periods.delta_complex import DeltaComplex
+from igl_periods.harmonic import factorised
+from igl_periods.harmonic_energies import HarmonicProblem, _panels, harmonic_problem
+from igl_periods.high_order import HighOrderForms, dirichlet_matrix
+from igl_periods.linear_forms import LinearForms, gram_matrix
+from igl_periods.local_refinement import insert_barycentres
+
+from . import linear_energies, polynomial_energies
+from .length_balls import after_barycentres, after_flips, after_midpoints, stored_lengths
+from .linear_energies import EnclosedForms
+from .midpoint_radius import Balls, check_arithmetic
+from .proved_energies import CombinedJumps, ProvedEnergies, orthonormal_combination
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class EnclosedTriangulation(Triangulation):
+    """A triangulation of a surface, with the lengths of its edges in balls.
+
+    Attributes
+    ----------
+    lengths : (n_edges,) balls
+    """
+
+    lengths: Balls
+
+    @classmethod
+    def of(cls, K: DeltaComplex, cochains: csr_array, basis: Ints) -> EnclosedTriangulation:
+        """The triangulation as it is given, whose stored lengths are those of the surface.
+
+        Raises
+        ------
+        ArithmeticError
+            If floating-point arithmetic is not what proofs need.
+        ComplexError
+            If glued sides have different lengths.
+        """
+        check_arithmetic()
+        return cls(K, cochains, basis, stored_lengths(K))
+
+    def flipped(self) -> EnclosedTriangulation:
+        """The intrinsic Delaunay triangulation, or one near it.
+
+        Raises
+        ------
+        ComplexError
+            If rounding hides whether an edge can be flipped.
+        """
+        K, rounds = delaunay_flips(self.complex)
+        lengths = after_flips(self.lengths, rounds)
+        return EnclosedTriangulation(K, transport(self.cochains, rounds), self.basis, lengths)
+
+    def divided(self, faces: Ints) -> EnclosedTriangulation:
+        """Faces divided into three at their barycentres, then flipped."""
+        K, cochains = insert_barycentres(self.complex, self.cochains, faces)
+        lengths = after_barycentres(self.complex, self.lengths, faces)
+        return EnclosedTriangulation(K, cochains, self.basis, lengths).flipped()
+
+
+def linear_proof(where: EnclosedTriangulation, memory: float | None = None) -> ProvedEnergies:
+    """Energies of the harmonic forms that are linear on triangles.
+
+    Parameters
+    ----------
+    where : EnclosedTriangulation
+    memory : float, optional
+        Bytes that the functions may take; with less than all need, they are computed in portions.
+
+    Raises
+    ------
+    ComplexError
+        If the Laplacian is not positive definite, or a triangle may be degenerate.
+    """
+    laplacian, problem = harmonic_problem(where.complex, where.cochains)
+    factor = factorised(laplacian)
+    del laplacian
+    sides = where.lengths[where.complex.edge]
+    n, k = problem.sources.shape
+    panels = _panels(n, k, None if memory is None else 0.5 * memory)
+    if len(panels) > 1:
+        return _by_panels(problem, factor, panels, sides, where.basis)
+    forms, _ = problem.forms(slice(0, k), factor)
+    del factor
+    W = orthonormal_combination(gram_matrix(forms), where.cochains)
+    enclosed = EnclosedForms(
+        sides, forms.faces.corner_vertex, CombinedJumps(forms.jumps, W), forms.potentials @ W.T
+    )
+    return _proved(linear_energies.enclosed_energies(enclosed), W, where.basis)
+
+
+def high_order_proof(where: EnclosedTriangulation, forms: HighOrderForms) -> ProvedEnergies:
+    """Energies of forms of high degree.
+
+    Parameters
+    ----------
+    where : EnclosedTriangulation
+    forms : HighOrderForms
+        In the classes of its cochains, on its complex or on the one divided at midpoints.
+
+    Raises
+    ------
+    ComplexError
+        If a triangle may be degenerate.
+    """
+    lengths = where.lengths
+    if forms.complex is not where.complex:
+        lengths = after_midpoints(where.complex, lengths)
+    W = orthonormal_combination(dirichlet_matrix(forms), forms.cochains)
+    combined = replace(
+        forms, cochains=csr_array(csr_array(W) @ forms.cochains), traces=forms.traces @ W.T
+    )
+    energies = polynomial_energies.enclosed_energies(combined, lengths[forms.complex.edge])
+    return _proved(energies, W, where.basis)
+
+
+def _by_panels(
+    problem: HarmonicProblem, factor: object, panels: list[slice], sides: Balls, basis: Ints
+) -> ProvedEnergies:
+    """The energies of the forms as they are, portion by portion, where all have no room at once."""
+    k = problem.sources.shape[1]
+    mid, rad = np.zeros((k, k)), np.zeros((k, k))
+    for i, rows in enumerate(panels):
+        held = _enclosed(problem.forms(rows, factor)[0], sides)
+        for columns in panels[i:]:
+            other = None
+            if columns != rows:
+                other = _enclosed(problem.forms(columns, factor)[0], sides)
+            part = linear_energies.enclosed_energies(held, other)
+            for whole, values in ((mid, part.mid), (rad, part.rad)):
+                whole[rows, columns], whole[columns, rows] = values, values.T
+    return _proved(Balls(mid, rad), np.eye(k), basis)
+
+
+def _enclosed(forms: LinearForms, sides: Balls) -> EnclosedForms:
+    return EnclosedForms(sides, forms.faces.corner_vertex, forms.jumps, forms.potentials)
+
+
+def _proved(energies: Balls, W: Floats, basis: Ints) -> ProvedEnergies:
+    return ProvedEnergies(energies.mid, energies.rad, W, basis)
