@@ -1,0 +1,4 @@
+"""Proved digits: period matrices in balls."""
+
+from .computation import enclose as enclose
+from .enclosure import PeriodEnclosure as PeriodEnclosure

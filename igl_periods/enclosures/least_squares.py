@@ -1,0 +1,226 @@
+r"""The jumps across the interfaces, made small by least squares, factored once in double precision.
+
+At the nodes of an interface, weighted by the roots of the Gauss weights, three numbers should
+vanish: [u] − J, the jump of the value minus that of the cochain, and with G = dF/ds on each side
+the real and the imaginary part of the sum of the two G, the jumps of both derivatives (the sides
+run in opposite directions).
+
+Gram matrices of single cells are factored first, A_cᵀ A_c = R_cᵀ R_c.  In the coordinates R_c a_c
+the normal equations have identities on the diagonal, the coupling of neighbours beside it, and a
+condition number of a few tens, so that the Cholesky factor in double precision reduces a residual
+by 13 to 14 digits however many digits the residual itself is known to.
+
+Nothing here is rigorous, and nothing needs to be: any coefficients give closed forms.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import scipy.linalg
+from numpy.typing import NDArray
+from scipy.linalg import solve_triangular
+from scipy.sparse import csc_matrix
+from sksparse.cholmod import analyze
+
+from .trial_functions import TrialFunctions
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class LeastSquares:
+    """A factored least-squares problem.
+
+    Attributes
+    ----------
+    trial : TrialFunctions
+    roots : list of float
+        The upper triangular factor R_c of each cell.
+    order : (n_cells,) int
+        The order of the cells in the factor.
+    factor : sksparse.cholmod.Factor
+    """
+
+    trial: TrialFunctions
+    roots: list[Floats]
+    order: Ints
+    factor: Any
+
+    @property
+    def n_unknowns(self) -> int:
+        """Number of real unknowns."""
+        return int((2 * self.trial.size - 1).sum())
+
+    def solve(self, values: Floats, slopes: Complexes) -> list[Complexes]:
+        """Coefficients for which the jumps are closest to given ones.
+
+        Parameters
+        ----------
+        values : (rows, k) float
+            Wanted [u] at the nodes, in the rows of first sides and, negative, of second sides.
+        slopes : (rows, k) complex
+            Wanted G_first + G_second, in the rows of both sides.
+
+        Returns
+        -------
+        list of (K, k) complex
+            For each cell; the first coefficient is real.
+        """
+        trial, start = self.trial, self.trial.nodes.start
+        weight = trial.nodes.weight[:, None]
+        values, slopes = weight * values, weight * slopes
+        parts = []
+        for cell in self.order:
+            rows = slice(start[cell], start[cell + 1])
+            gradient = trial.values[cell].conj().T @ values[rows]
+            gradient += trial.slopes[cell].conj().T @ slopes[rows]
+            parts.append(solve_triangular(self.roots[cell], _real(gradient), trans="T"))
+        solution = self.factor(np.concatenate(parts))
+        found: list[Complexes] = [np.empty(0)] * len(parts)  # type: ignore[list-item]
+        end = 0
+        for cell in self.order:
+            begin, end = end, end + 2 * int(trial.size[cell]) - 1
+            found[cell] = _complex(solve_triangular(self.roots[cell], solution[begin:end]))
+        return found
+
+
+def least_squares(trial: TrialFunctions) -> LeastSquares:
+    """Set up and factor the least-squares problem of the jumps."""
+    weighted = _Weighted(trial)
+    roots = _roots(weighted)
+    order = _elimination_order(trial)
+    normal = _normal_equations(weighted, roots, order)
+    symbolic = analyze(normal, mode="supernodal", ordering_method="natural")
+    return LeastSquares(trial, roots, order, symbolic.cholesky(normal))
+
+
+class _Weighted:
+    """Values and slopes of the trial functions on the sides, times the roots of the weights."""
+
+    def __init__(self, trial: TrialFunctions) -> None:
+        self.trial, self.nodes = trial, trial.nodes
+        self.root = np.sqrt(trial.nodes.weight)
+
+    def cell(self, cell: int) -> tuple[Complexes, Complexes]:
+        root = self.root[self.nodes.start[cell] : self.nodes.start[cell + 1], None]
+        return root * self.trial.values[cell], root * self.trial.slopes[cell]
+
+    def side(self, i: int, side: int) -> tuple[Complexes, Complexes]:
+        cell = self.nodes.cells.cell[i, side]
+        rows = self.nodes.rows(i, side)
+        root = self.root[rows, None]
+        rows = slice(rows.start - self.nodes.start[cell], rows.stop - self.nodes.start[cell])
+        return root * self.trial.values[cell][rows], root * self.trial.slopes[cell][rows]
+
+    def coupling(self, i: int) -> Floats:
+        """Products of the functions on the two sides of an interface."""
+        (values, slopes), (others, other_slopes) = self.side(i, 0), self.side(i, 1)
+        return _products(-values, slopes, others, other_slopes)
+
+
+def _products(
+    values: Complexes, slopes: Complexes, others: Complexes, other_slopes: Complexes
+) -> Floats:
+    """AᵀB of the real columns Re a_0, Re a_k, …, Im a_k, … of two sets of functions."""
+    A, B = _columns(values), _columns(others)
+    C = slopes.conj().T @ other_slopes
+    rotation = np.block([[C.real, -C.imag[:, 1:]], [C.imag[1:], C.real[1:, 1:]]])
+    return np.asarray(A.T @ B + rotation, dtype=np.float64)
+
+
+def _columns(values: Complexes) -> Floats:
+    return np.concatenate([values.real, -values.imag[:, 1:]], axis=1)
+
+
+def _real(a: Complexes) -> Floats:
+    return np.concatenate([a.real, a.imag[1:]])
+
+
+def _complex(x: Floats) -> Complexes:
+    K = (len(x) + 1) // 2
+    a = x[:K].astype(np.complex128)
+    a[1:] += 1j * x[K:]
+    return a
+
+
+def _roots(weighted: _Weighted) -> list[Floats]:
+    """The triangular factor of each cell."""
+    cells = weighted.nodes.cells
+    alone: dict[int, list[int]] = {}
+    for i in np.flatnonzero(cells.cell[:, 0] == cells.cell[:, 1]):
+        alone.setdefault(int(cells.cell[i, 0]), []).append(int(i))
+    roots = []
+    for cell in range(cells.n_cells):
+        values, slopes = weighted.cell(cell)
+        gram = _products(values, slopes, values, slopes)
+        for i in alone.get(cell, ()):
+            coupling = weighted.coupling(i)
+            gram += coupling + coupling.T
+        if cell == 0:
+            # A constant on the whole surface jumps nowhere: one more equation says that it is 0.
+            gram[0, 0] += 1.0
+        roots.append(_cholesky(gram))
+    return roots
+
+
+def _cholesky(gram: Floats) -> Floats:
+    """R with RᵀR = gram, of a matrix that may be singular to rounding."""
+    size = np.sqrt(np.diag(gram))
+    scaled = gram / np.outer(size, size)
+    shift = 0.0
+    while True:
+        try:
+            root = scipy.linalg.cholesky(scaled + shift * np.eye(len(gram)))
+            return np.asarray(root * size, dtype=np.float64)
+        except scipy.linalg.LinAlgError:
+            shift = max(10.0 * shift, 1e-15)
+
+
+def _elimination_order(trial: TrialFunctions) -> Ints:
+    """An order of the cells in which eliminating them couples few others: minimum degree."""
+    cells = trial.nodes.cells
+    a, b = cells.cell.T
+    n = cells.n_cells
+    graph = csc_matrix(
+        (np.ones(2 * a.size + n), (np.r_[a, b, :n], np.r_[b, a, :n])), shape=(n, n)
+    )
+    return np.asarray(analyze(graph, ordering_method="amd").P(), dtype=np.int64)
+
+
+def _normal_equations(weighted: _Weighted, roots: list[Floats], order: Ints) -> csc_matrix:
+    """The lower triangle of the normal equations, cells in the given order."""
+    cells, size = weighted.nodes.cells, 2 * weighted.trial.size - 1
+    rank = np.empty(order.size, dtype=np.int64)
+    rank[order] = np.arange(order.size)
+    first = np.cumsum(size[order]) - size[order]
+    below: list[dict[int, Floats]] = [{} for _ in order]
+    for i, (a, b) in enumerate(cells.cell.tolist()):
+        if a == b:
+            continue
+        block = solve_triangular(roots[a], weighted.coupling(i), trans="T")
+        block = solve_triangular(roots[b], block.T, trans="T").T
+        row, column = rank[a], rank[b]
+        if row < column:
+            row, column, block = column, row, block.T
+        blocks = below[column]
+        blocks[row] = blocks[row] + block if row in blocks else block
+    data, indices, counts = [], [], []
+    for column, blocks in enumerate(below):
+        n = int(size[order[column]])
+        rows = sorted(blocks)
+        column_blocks = np.concatenate([np.eye(n), *(blocks[row] for row in rows)])
+        where = [np.arange(first[r], first[r] + size[order[r]]) for r in (column, *rows)]
+        data.append(column_blocks.ravel(order="F"))
+        indices.append(np.tile(np.concatenate(where), n))
+        counts.append(np.full(n, len(column_blocks)))
+        blocks.clear()
+    indptr = np.concatenate([[0], np.cumsum(np.concatenate(counts))])
+    total = int(size.sum())
+    return csc_matrix(
+        (np.concatenate(data), np.concatenate(indices), indptr), shape=(total, total)
+    )
