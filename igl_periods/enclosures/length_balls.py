@@ -36,10 +36,11 @@ from .shapes import double_areas, foot
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-# Lengths that are not known to so much, relatively, are computed with more bits; so many at most.
-_DOUBTFUL = 2.0**-49
-_MOST_SHARPENED = 20_000
-_BITS = 192
+# Lengths that are not known to so much, relatively, are computed with more bits: the first of
+# these that leads to no more flips than stand beside it.
+_SHARPENED = ((2.0**-49, 20_000.0), (2.0**-40, 100_000.0), (2.0**-30, np.inf))
+# Balls may become several times as large with each of the flips that follow each other.
+_LEAST_BITS, _BITS_A_ROUND = 128, 3
 
 
 def stored_lengths(K: DeltaComplex) -> Balls:
@@ -71,10 +72,16 @@ def after_flips(lengths: Balls, rounds: list[Flips]) -> Balls:
     if not rounds:
         return lengths
     now = Balls(lengths.mid.copy(), lengths.rad.copy())
-    for flips in rounds:
-        diagonal = _diagonals(*(now[side] for side in _quadrilateral(flips)))
-        now.mid[flips.edge], now.rad[flips.edge] = diagonal.mid, diagonal.rad
-    _sharpen(now, lengths, rounds)
+    with np.errstate(invalid="ignore", over="ignore"):
+        for flips in rounds:
+            diagonal = _diagonals(*(now[side] for side in _quadrilateral(flips)))
+            now.mid[flips.edge], now.rad[flips.edge] = diagonal.mid, diagonal.rad
+    for precision, most in _SHARPENED:
+        doubtful = np.flatnonzero(~(now.rad <= precision * now.mid))
+        portions = _flips_behind(doubtful, rounds, now.mid.size)
+        if sum(map(len, portions)) <= most:
+            _sharpen(now, doubtful, lengths, portions)
+            break
     unknown = np.flatnonzero(~np.isfinite(now.rad))
     if unknown.size:
         raise ComplexError(
@@ -144,34 +151,36 @@ def _diagonals(base: Balls, pa: Balls, pb: Balls, qa: Balls, qb: Balls) -> Balls
     return diagonal
 
 
-def _sharpen(now: Balls, before: Balls, rounds: list[Flips]) -> None:
-    """Compute lengths that are not known well with more bits, in place.
-
-    What they depend on is found backwards, through the rounds of flips.
-    """
-    doubtful = np.flatnonzero(~(now.rad <= _DOUBTFUL * now.mid))
-    wanted = np.zeros(now.mid.size, dtype=bool)
-    wanted[doubtful] = True
+def _flips_behind(edges: Ints, rounds: list[Flips], n_edges: int) -> list[Ints]:
+    """The flips of each round that the lengths of edges depend on; (n, 5) quadrilaterals."""
+    wanted = np.zeros(n_edges, dtype=bool)
+    wanted[edges] = True
     portions = []
     for flips in reversed(rounds):
         sides = np.stack(_quadrilateral(flips), axis=1)[wanted[flips.edge]]
-        portions.append(sides.tolist())
+        portions.append(sides)
         wanted[sides] = True
-    if not 0 < sum(map(len, portions)) <= _MOST_SHARPENED:
-        return
-    with flint.ctx.workprec(_BITS):
-        known = {
-            edge: arb(float(before.mid[edge]), float(before.rad[edge]))
-            for edge in np.flatnonzero(wanted).tolist()
-        }
-        for portion in reversed(portions):
-            for sides in portion:
-                known[sides[0]] = _diagonal_in_arb(*(known[side] for side in sides))
-        for edge in doubtful.tolist():
-            if known[edge].is_finite():
-                middle = float(known[edge])
-                now.mid[edge] = middle
-                now.rad[edge] = np.nextafter(float(abs(known[edge] - middle).upper()), np.inf)
+    return portions[::-1]
+
+
+def _sharpen(now: Balls, edges: Ints, before: Balls, portions: list[Ints]) -> None:
+    """Compute the lengths of edges with more bits, in place."""
+    with flint.ctx.workprec(_LEAST_BITS + _BITS_A_ROUND * len(portions)):
+        known: dict[int, arb] = {}
+
+        def length(edge: int) -> arb:
+            if edge not in known:
+                known[edge] = arb(float(before.mid[edge]), float(before.rad[edge]))
+            return known[edge]
+
+        for portion in portions:
+            for quadrilateral in portion.tolist():
+                known[quadrilateral[0]] = _diagonal_in_arb(*map(length, quadrilateral))
+        for edge in edges.tolist():
+            exact = length(edge)
+            if exact.is_finite():
+                now.mid[edge] = middle = float(exact)
+                now.rad[edge] = np.nextafter(float(abs(exact - middle).upper()), np.inf)
 
 
 def _diagonal_in_arb(base: arb, pa: arb, pb: arb, qa: arb, qb: arb) -> arb:

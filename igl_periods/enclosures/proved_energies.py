@@ -117,7 +117,7 @@ def orthonormal_combination(D: Floats, cochains: csr_array) -> Floats:
     k = len(D)
     W = solve_triangular(cholesky_factor(D), np.eye(k), lower=True)
     largest = int(np.abs(cochains.data).max(initial=1))
-    return rounded_rows(W, k * largest)
+    return rounded_rows(W, max(k, 1) * largest)
 
 
 def rounded_rows(W: Floats, multiples: int) -> Floats:

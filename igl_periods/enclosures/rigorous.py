@@ -111,11 +111,26 @@ def linear_proof(where: EnclosedTriangulation, memory: float | None = None) -> P
         return _by_panels(problem, factor, panels, sides, where.basis)
     forms, _ = problem.forms(slice(0, k), factor)
     del factor
-    W = orthonormal_combination(gram_matrix(forms), where.cochains)
-    enclosed = EnclosedForms(
-        sides, forms.faces.corner_vertex, CombinedJumps(forms.jumps, W), forms.potentials @ W.T
-    )
+    enclosed, W = nearly_orthonormal(forms, where.cochains, sides)
     return _proved(linear_energies.enclosed_energies(enclosed), W, where.basis)
+
+
+def nearly_orthonormal(
+    forms: LinearForms, cochains: csr_array, sides: Balls
+) -> tuple[EnclosedForms, Floats]:
+    """Forms in the classes W c, orthonormal up to rounding, and the matrix W.
+
+    Parameters
+    ----------
+    forms : LinearForms
+        In the classes c of the cochains (k, n_edges).
+    sides : (m, 3) balls
+        Lengths of the sides of the faces.
+    """
+    W = orthonormal_combination(gram_matrix(forms), cochains)
+    jumps = CombinedJumps(forms.jumps, W)
+    corner_vertex = forms.faces.corner_vertex
+    return EnclosedForms(sides, corner_vertex, jumps, forms.potentials @ W.T), W
 
 
 def high_order_proof(where: EnclosedTriangulation, forms: HighOrderForms) -> ProvedEnergies:
