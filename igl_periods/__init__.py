@@ -10,51 +10,100 @@
 
 from importlib.metadata import version as _version
 
-from .adaptive import ToleranceWarning as ToleranceWarning
-from .automorphisms import SymplecticGroup as SymplecticGroup
-from .automorphisms import symplectic_automorphism_group as symplectic_automorphism_group
-from .catalogue import catalogue as catalogue
-from .delta_complex import DeltaComplex as DeltaComplex
-from .differentials import abel_jacobi as abel_jacobi
-from .double import double as double
-from .double import real_structure as real_structure
-from .double_graph import DoubleGraph as DoubleGraph
-from .double_graph import double_graph as double_graph
-from .dual_cycles import dual_homology_basis as dual_homology_basis
-from .equivalence import Isomorphisms as Isomorphisms
-from .equivalence import moduli_distance as moduli_distance
-from .equivalence import symplectic_isomorphisms as symplectic_isomorphisms
-from .errors import ComplexError as ComplexError
-from .errors import MemoryLimitError as MemoryLimitError
-from .errors import MeshError as MeshError
-from .errors import NotASiegelPointError as NotASiegelPointError
-from .form_choice import most_even_form as most_even_form
-from .half_space import siegel_distance as siegel_distance
-from .half_space import siegel_transform as siegel_transform
-from .hodge import hodge_decomposition as hodge_decomposition
-from .holomorphic import harmonic_form_blocks as harmonic_form_blocks
-from .holomorphic import harmonic_forms as harmonic_forms
-from .holomorphic import holomorphic_forms as holomorphic_forms
-from .holomorphic import symplectic_mean_forms as symplectic_mean_forms
-from .homology import cohomology_basis as cohomology_basis
-from .homology import homology_basis as homology_basis
-from .homotopy import fundamental_polygon as fundamental_polygon
-from .homotopy import shortest_loops as shortest_loops
-from .identification import Identification as Identification
-from .identification import identify as identify
-from .invariants import to_flint as to_flint
-from .local_refinement import refined_period_matrix as refined_period_matrix
-from .mesh import MeshReport as MeshReport
-from .mesh import load_mesh as load_mesh
-from .parametrization import parametrize as parametrize
-from .periods import PeriodMatrix as PeriodMatrix
-from .pipeline import period_matrix as period_matrix
-from .pipeline import period_matrix_from_weights as period_matrix_from_weights
-from .quality import mesh_quality as mesh_quality
-from .richardson import Extrapolation as Extrapolation
-from .richardson import richardson as richardson
-from .siegel import SIEGEL_GENUS_LIMIT as SIEGEL_GENUS_LIMIT
-from .siegel import SiegelReduction as SiegelReduction
-from .siegel import siegel_reduce as siegel_reduce
+from .periods import (
+    Extrapolation,
+    PeriodMatrix,
+    ToleranceWarning,
+    mesh_quality,
+    period_matrix,
+    period_matrix_from_weights,
+    real_structure,
+    refined_period_matrix,
+    richardson,
+)
+from .moduli import (
+    Isomorphisms,
+    SymplecticGroup,
+    moduli_distance,
+    symplectic_automorphism_group,
+    symplectic_isomorphisms,
+)
+from .surfaces import Identification, catalogue, identify
+from .complexes import DeltaComplex, double
+from .differentials import abel_jacobi, most_even_form, parametrize
+from .forms import (
+    DoubleGraph,
+    double_graph,
+    hodge_decomposition,
+    holomorphic_forms,
+    symplectic_mean_forms,
+)
+from .topology import (
+    cohomology_basis,
+    dual_homology_basis,
+    fundamental_polygon,
+    homology_basis,
+    shortest_loops,
+)
+from .errors import ComplexError, MemoryLimitError, MeshError, NotASiegelPointError
+from .siegel import (
+    SIEGEL_GENUS_LIMIT,
+    SiegelReduction,
+    siegel_distance,
+    siegel_reduce,
+    siegel_transform,
+    to_flint,
+)
+from .harmonic import harmonic_form_blocks, harmonic_forms
+from .meshes import MeshReport, load_mesh
 
 __version__ = _version("igl_periods")
+
+__all__ = [
+    "abel_jacobi",
+    "catalogue",
+    "cohomology_basis",
+    "ComplexError",
+    "DeltaComplex",
+    "double",
+    "double_graph",
+    "DoubleGraph",
+    "dual_homology_basis",
+    "Extrapolation",
+    "fundamental_polygon",
+    "harmonic_form_blocks",
+    "harmonic_forms",
+    "hodge_decomposition",
+    "holomorphic_forms",
+    "homology_basis",
+    "Identification",
+    "identify",
+    "Isomorphisms",
+    "load_mesh",
+    "MemoryLimitError",
+    "mesh_quality",
+    "MeshError",
+    "MeshReport",
+    "moduli_distance",
+    "most_even_form",
+    "NotASiegelPointError",
+    "parametrize",
+    "period_matrix",
+    "period_matrix_from_weights",
+    "PeriodMatrix",
+    "real_structure",
+    "refined_period_matrix",
+    "richardson",
+    "shortest_loops",
+    "siegel_distance",
+    "SIEGEL_GENUS_LIMIT",
+    "siegel_reduce",
+    "siegel_transform",
+    "SiegelReduction",
+    "symplectic_automorphism_group",
+    "symplectic_isomorphisms",
+    "symplectic_mean_forms",
+    "SymplecticGroup",
+    "to_flint",
+    "ToleranceWarning",
+]

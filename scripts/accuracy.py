@@ -20,18 +20,17 @@ import numpy as np
 import tables
 
 import igl_periods as ip
-from igl_periods.delaunay import intrinsic_delaunay
-from igl_periods.harmonic_energies import linear_energies
-from igl_periods.high_order import (
+from igl_periods.complexes.delaunay import intrinsic_delaunay
+from igl_periods.complexes.midpoint_subdivision import split
+from igl_periods.elements.least_energy import (
     dirichlet_matrix,
-    flat_elements,
     high_order_forms,
     least_energy_forms,
     rounding_allowance,
-    separate_cones,
 )
-from igl_periods.refinement import split
-from igl_periods.rounding import LEAST_ALLOWANCE
+from igl_periods.elements.placement import flat_elements, separate_cones
+from igl_periods.harmonic.energies import linear_energies
+from igl_periods.periods.rounding import LEAST_ALLOWANCE
 from igl_periods.surfaces import square_tiled_surface
 
 METHODS = {

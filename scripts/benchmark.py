@@ -32,12 +32,13 @@ from benchmark_surfaces import delaunay_surface, marching_cubes_surface
 from scipy.sparse import csc_matrix, save_npz
 
 import igl_periods as ip
-from igl_periods import high_order
-from igl_periods.assembly import condensed_system, solve
-from igl_periods.delaunay import delaunay_flips, intrinsic_delaunay
-from igl_periods.delta_complex import cotan_weights
-from igl_periods.harmonic import grounded_laplacian
-from igl_periods.high_order import choose_elements, high_order_forms, separate_cones
+from igl_periods.complexes.delaunay import delaunay_flips, intrinsic_delaunay
+from igl_periods.complexes.weights import cotan_weights
+from igl_periods.elements import least_energy as high_order
+from igl_periods.elements.least_energy import high_order_forms
+from igl_periods.elements.placement import choose_elements, separate_cones
+from igl_periods.elements.trace_system import condensed_system, solve
+from igl_periods.harmonic.laplace_matrix import grounded_laplacian
 from igl_periods.surfaces import menger_sponge, thickened_lattice
 
 ORDERINGS = ("amd", "metis", "nesdis", "default")

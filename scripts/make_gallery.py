@@ -11,10 +11,10 @@ import sys
 from pathlib import Path
 
 import igl_periods as ip
-from igl_periods.form_choice import most_even_form
-from igl_periods.parametrization import parametrize
-from igl_periods.render import render, save, with_legend
-from igl_periods.scenes import checkerboard_scene, cycles_scene, density_scene
+from igl_periods.differentials.even_form import most_even_form
+from igl_periods.differentials.parametrization import parametrize
+from igl_periods.pictures.rendering import render, save, with_legend
+from igl_periods.pictures.scenes import checkerboard_scene, cycles_scene, density_scene
 
 DATA = Path(__file__).resolve().parents[1] / "data"
 SIZE = (800, 600)

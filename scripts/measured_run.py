@@ -37,7 +37,7 @@ def cholmod(path, ordering, n_columns):
 def period_matrix(path, *options):
     """``period_matrix(V, F)``, and its Siegel reduction unless told otherwise."""
     import igl_periods as ip
-    from igl_periods.stages import logger
+    from igl_periods.run_log import logger
 
     stages = Stages()
     logger.addHandler(stages)

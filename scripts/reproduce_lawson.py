@@ -15,8 +15,9 @@ import numpy as np
 from tables import arguments, loglog, order, write
 
 import igl_periods as ip
-from igl_periods.delta_complex import cotan_weights
-from igl_periods.equivalence import symplectic_isomorphisms
+from igl_periods.complexes.triangles import angles
+from igl_periods.complexes.weights import cotan_weights
+from igl_periods.moduli.equivalence import symplectic_isomorphisms
 from igl_periods.surfaces import (
     lawson_period_matrix_in,
     lawson_segments,
@@ -27,7 +28,6 @@ from igl_periods.surfaces import (
     square_tiled_period_matrix,
     stereographic,
 )
-from igl_periods.triangles import angles
 
 # Printed in Bobenko, Mercat, Schmies, section 4.3: ‖Ω_in − Ω_l‖_∞ and ‖Ω_ex − Ω_l‖_∞.
 PRINTED = {1162: (1.68e-3, 1.68e-3), 2498: (3.01e-3, 3.20e-3), 10090: (8.55e-3, 8.56e-3)}

@@ -12,7 +12,7 @@ import numpy as np
 from tables import arguments, loglog, order, same_digits, write
 
 import igl_periods as ip
-from igl_periods.equivalence import symplectic_isomorphisms
+from igl_periods.moduli.equivalence import symplectic_isomorphisms
 from igl_periods.surfaces import square_tiled_period_matrix, square_tiled_surface
 
 # Printed in Bobenko, Mercat, Schmies, section 4.1: numbers of vertices, and ‖Ω_D − Ω‖_∞.

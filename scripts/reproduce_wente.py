@@ -13,7 +13,7 @@ from scipy.optimize import minimize_scalar
 from tables import arguments, loglog, order, write
 
 import igl_periods as ip
-from igl_periods.homology import half_edge_ends
+from igl_periods.complexes.half_edges import half_edge_ends
 from igl_periods.surfaces import wente_modulus, wente_torus
 
 # Printed in Bobenko, Mercat, Schmies, section 4.2.

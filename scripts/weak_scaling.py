@@ -26,7 +26,7 @@ from benchmark import delaunay_surface, marching_cubes_surface
 from mpi4py import MPI
 
 from igl_periods.distributed import period_matrix
-from igl_periods.stages import logger
+from igl_periods.run_log import logger
 
 SURFACES = {"delaunay": delaunay_surface, "marching-cubes": marching_cubes_surface}
 TRIANGLES = 1e9

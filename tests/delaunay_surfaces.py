@@ -14,8 +14,8 @@ from random_surfaces import (
 from scipy.sparse import csr_array
 
 import igl_periods as ip
-from igl_periods.delaunay import intrinsic_delaunay
-from igl_periods.double_graph import DoubleGraph, double_graph
+from igl_periods.complexes.delaunay import intrinsic_delaunay
+from igl_periods.forms.graph import DoubleGraph, double_graph
 
 
 @dataclass(frozen=True)

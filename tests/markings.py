@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 from matching import energy, mobius
 
-from igl_periods.siegel import siegel_reduce
+from igl_periods.siegel.reduction import siegel_reduce
 
 
 def in_basis_of(exact: np.ndarray, Pi: np.ndarray, tolerance: float, size: int = 1) -> np.ndarray:

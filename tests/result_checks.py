@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from igl_periods.homology import pairing
-from igl_periods.symplectic import standard_form
+from igl_periods.symplectic.canonical_basis import standard_form
+from igl_periods.topology.cohomology import pairing
 
 
 def check_result(pm):

@@ -9,21 +9,21 @@ from random_surfaces import random_gluing, random_lengths
 from scipy.sparse import csr_array
 
 import igl_periods as ip
-from igl_periods import adaptive
-from igl_periods.adaptive import (
+from igl_periods.complexes.delaunay import intrinsic_delaunay
+from igl_periods.elements.least_energy import dirichlet_matrix, energy_excess, high_order_forms
+from igl_periods.elements.trace_system import count_unknowns
+from igl_periods.periods import adaptive_degree as adaptive
+from igl_periods.periods.adaptive_degree import (
     Attempt,
     ToleranceWarning,
     Triangulation,
     period_matrix_within,
 )
-from igl_periods.delaunay import intrinsic_delaunay
-from igl_periods.energy_excess import williamson_basis
-from igl_periods.high_order import dirichlet_matrix, energy_excess, high_order_forms
-from igl_periods.homology import cochains_and_basis
-from igl_periods.memory import count_unknowns, high_order_memory
-from igl_periods.rounding import LEAST_ALLOWANCE, congruence
+from igl_periods.periods.memory_estimates import high_order_memory
+from igl_periods.periods.rounding import LEAST_ALLOWANCE, congruence
 from igl_periods.surfaces.square_tiled import glued_rectangles, origami, square_tiled_surface
-from igl_periods.symplectic import williamson
+from igl_periods.symplectic.williamson_form import williamson, williamson_basis
+from igl_periods.topology.cohomology import cochains_and_basis
 
 L_GLUING = [((0, 1), (1, 3)), ((1, 1), (0, 3)), ((0, 2), (2, 0)),
             ((2, 2), (0, 0)), ((1, 2), (1, 0)), ((2, 1), (2, 3))]  # fmt: skip

@@ -36,11 +36,10 @@ from igl_periods.batch import (
     run_batch,
 )
 from igl_periods.batch import cluster as batch_cluster
-from igl_periods.batch import rows as batch_rows
 from igl_periods.batch.journal import Journal
 from igl_periods.batch.rows import COLUMNS, file_hash
-from igl_periods.cli import main
-from igl_periods.genus_two import igusa_clebsch_invariants
+from igl_periods.cli.program import main
+from igl_periods.moduli.genus_two import igusa_clebsch_invariants
 from igl_periods.surfaces import cyclic_cover
 
 DATA = Path(__file__).parents[1] / "data"
@@ -49,7 +48,7 @@ TETRAHEDRON = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2
 # What the workers of these tests load: files whose name says so kill them, or take their time.
 HABITS = """
 import os, time
-from igl_periods import surface_choice
+from igl_periods.meshes import surface_files
 from igl_periods.batch import rows as batch_rows
 
 def read_surface(path, repair=False):
@@ -57,7 +56,7 @@ def read_surface(path, repair=False):
         os.kill(os.getpid(), 9)
     if "slow" in str(path):
         time.sleep(0.1)
-    return surface_choice.read_surface(path, repair)
+    return surface_files.read_surface(path, repair)
 
 batch_rows.read_surface = read_surface
 """
@@ -125,7 +124,7 @@ def address(cluster):
 
 
 def test_matrices_of_very_high_genus_stay_in_the_marking_of_the_mesh(monkeypatch):
-    monkeypatch.setattr(batch_rows, "SIEGEL_GENUS_LIMIT", 1)
+    monkeypatch.setattr("igl_periods.periods.matrix.SIEGEL_GENUS_LIMIT", 1)
     (row,) = rows_of(DATA / "lawson_2_1.off")
     pm = ip.period_matrix(*ip.load_mesh(DATA / "lawson_2_1.off")[:2])
     assert row["reduced"] is False
@@ -684,7 +683,7 @@ def test_wrong_usage(arguments, message, capsys):
 
 
 def started(*arguments, **options):
-    command = [sys.executable, "-m", "igl_periods.cli", "batch", *map(str, arguments)]
+    command = [sys.executable, "-m", "igl_periods", "batch", *map(str, arguments)]
     return subprocess.Popen(command, **options)
 
 
@@ -742,6 +741,6 @@ def test_interrupted_from_the_keyboard(tmp_path, habits):
 
 def test_dask_and_arrow_are_imported_by_nothing_else():
     late = {"dask", "distributed", "pyarrow", "open3d", "tqdm"}
-    code = f"import sys, igl_periods.cli; print({late} & {{*sys.modules}})"
+    code = f"import sys, igl_periods.cli.program; print({late} & {{*sys.modules}})"
     command = [sys.executable, "-c", code]
     assert subprocess.run(command, capture_output=True, text=True, check=True).stdout == "set()\n"

@@ -9,11 +9,9 @@ from curve_periods import period_matrix as curve_period_matrix
 from modular_words import random_point, random_word
 
 import igl_periods as ip
-from igl_periods.catalogue import binomial_period_matrix, catalogue
-from igl_periods.equivalence import moduli_distance, symplectic_isomorphisms
 from igl_periods.errors import NotASiegelPointError
-from igl_periods.identification import identify
-from igl_periods.siegel import siegel_distance, siegel_transform
+from igl_periods.moduli.equivalence import moduli_distance, symplectic_isomorphisms
+from igl_periods.siegel.half_space import siegel_distance, siegel_transform
 from igl_periods.surfaces import (
     cyclic_cover,
     flat_torus,
@@ -24,6 +22,8 @@ from igl_periods.surfaces import (
     stereographic,
     torus_of_revolution,
 )
+from igl_periods.surfaces.identification import identify
+from igl_periods.surfaces.named_surfaces import binomial_period_matrix, catalogue
 
 ROOT2, ROOT7 = 2**0.5, 7**0.5
 

@@ -15,10 +15,9 @@ from matching import mobius
 from random_surfaces import noisy_torus, torus_of_revolution
 
 import igl_periods as ip
-from igl_periods import cli
-from igl_periods.cli import _parser, main
-from igl_periods.cli_pictures import _reduced
-from igl_periods.symplectic import standard_form
+from igl_periods.cli.picture_arguments import reduced_surface as _reduced
+from igl_periods.cli.program import _parser, main
+from igl_periods.symplectic.canonical_basis import standard_form
 
 DATA = Path(__file__).parents[1] / "data"
 
@@ -96,7 +95,7 @@ def test_without_reduction(torus, capsys):
 
 def test_high_genus_is_reduced_only_when_asked_for(torus, capsys, monkeypatch):
     # As if the limit were below the genus of the torus.
-    for module in ("cli", "cli_pictures", "summary"):
+    for module in ("periods.matrix", "reports.terminal_text"):
         monkeypatch.setattr(f"igl_periods.{module}.SIEGEL_GENUS_LIMIT", 0)
     assert main(["compute", str(torus)]) == 0
     printed = capsys.readouterr().out
@@ -116,7 +115,7 @@ def test_pictures_of_high_genus_are_in_the_marking_of_the_mesh(torus, monkeypatc
     options = _parser().parse_args(["render", str(torus), "-o", "torus.png"])
     pm = ip.period_matrix(*ip.load_mesh(torus)[:2])
     assert np.array_equal(_reduced(options)[0].matrix, pm.reduced().matrix)
-    monkeypatch.setattr("igl_periods.cli_pictures.SIEGEL_GENUS_LIMIT", 0)
+    monkeypatch.setattr("igl_periods.periods.matrix.SIEGEL_GENUS_LIMIT", 0)
     assert np.array_equal(_reduced(options)[0].matrix, pm.matrix)
 
 
@@ -148,7 +147,7 @@ def test_tolerance_and_degree(capsys):
 
 def test_a_reader_who_has_had_enough_is_no_error(torus):
     python, mesh = shlex.quote(sys.executable), shlex.quote(str(torus))
-    command = f"{python} -m igl_periods.cli compute {mesh} --json | head -c 10"
+    command = f"{python} -m igl_periods compute {mesh} --json | head -c 10"
     done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=True)
     assert done.stderr == ""
 
@@ -246,7 +245,7 @@ def test_wrong_usage_exits_with_two(arguments, capsys):
 
 
 def test_stages_are_shown_on_a_terminal_only(torus):
-    command = [sys.executable, "-m", "igl_periods.cli", "compute", str(torus)]
+    command = [sys.executable, "-m", "igl_periods", "compute", str(torus)]
     piped = subprocess.run(command, capture_output=True, text=True, check=True)
     assert piped.stderr == ""
     reader, terminal = pty.openpty()
@@ -307,8 +306,8 @@ def test_a_matrix_that_cannot_be_reduced_is_not_lost(monkeypatch, capsys):
     def refuse(pm, max_genus):
         raise ip.ComplexError("too extreme for double precision")
 
-    monkeypatch.setattr(cli, "siegel_reduced", refuse)
-    assert cli.main(["compute", str(DATA / "lawson_2_1.off")]) == 0
+    monkeypatch.setattr("igl_periods.periods.matrix.siegel_reduced", refuse)
+    assert main(["compute", str(DATA / "lawson_2_1.off")]) == 0
     output = capsys.readouterr()
     assert "in the marking of the mesh, not Siegel reduced" in output.out
     assert "warning: the matrix was not reduced: too extreme for double precision" in output.err

@@ -12,13 +12,13 @@ from random_surfaces import (
 )
 
 import igl_periods as ip
-from igl_periods import delaunay
-from igl_periods.delaunay import delaunay_flips, intrinsic_delaunay
-from igl_periods.delta_complex import cone_angles, cotan_weights
-from igl_periods.harmonic import laplacian
-from igl_periods.homology import cochains_and_basis, pairing
-from igl_periods.symplectic import standard_form
-from igl_periods.triangles import double_areas
+from igl_periods.complexes import delaunay
+from igl_periods.complexes.delaunay import delaunay_flips, intrinsic_delaunay
+from igl_periods.complexes.triangles import double_areas
+from igl_periods.complexes.weights import cone_angles, cotan_weights
+from igl_periods.harmonic.laplace_matrix import laplacian
+from igl_periods.symplectic.canonical_basis import standard_form
+from igl_periods.topology.cohomology import cochains_and_basis, pairing
 
 
 def check_flipped(K, cochains):

@@ -15,14 +15,9 @@ from random_surfaces import (
 )
 
 import igl_periods as ip
-from igl_periods.delta_complex import (
-    check_surface,
-    cone_angles,
-    cotan_weights,
-    extrinsic_weights,
-    is_orientable,
-)
-from igl_periods.triangles import angles, cotangents, double_areas, is_strict, mollify
+from igl_periods.complexes.surface_checks import check_surface, is_orientable
+from igl_periods.complexes.triangles import angles, cotangents, double_areas, is_strict, mollify
+from igl_periods.complexes.weights import cone_angles, cotan_weights, extrinsic_weights
 
 TETRAHEDRON = np.array([[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]])
 POINTS = np.array([[0.0, 0, 0], [1, 0, 0], [0.3, 1, 0], [0.2, 0.4, 0.9]])

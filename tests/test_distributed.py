@@ -16,16 +16,18 @@ from distributed_runs import OPTIONS, SURFACES
 from random_surfaces import OMEGA_1, OMEGA_2, torus_grid, torus_of_revolution
 
 import igl_periods as ip
-from igl_periods.delaunay import intrinsic_delaunay
-from igl_periods.delta_complex import cotan_weights
+from igl_periods.complexes.delaunay import intrinsic_delaunay
+from igl_periods.complexes.half_edges import edge_ends
+from igl_periods.complexes.weights import cotan_weights
 from igl_periods.distributed import __main__ as command
 from igl_periods.distributed import period_matrix, pipeline
 from igl_periods.distributed.collective import on_every_rank, on_root
 from igl_periods.distributed.libraries import load_petsc, world
 from igl_periods.distributed.partition import Partition
-from igl_periods.harmonic import dirichlet_matrix, edge_ends, laplacian
-from igl_periods.homology import cochains_and_basis
-from igl_periods.symplectic import standard_form
+from igl_periods.harmonic.energies import dirichlet_matrix
+from igl_periods.harmonic.laplace_matrix import laplacian
+from igl_periods.symplectic.canonical_basis import standard_form
+from igl_periods.topology.cohomology import cochains_and_basis
 
 HERE = Path(__file__).parent
 # Open MPI starts nothing as root, and no more ranks than there are cores, unless told to.

@@ -7,14 +7,15 @@ from random_surfaces import noisy_torus, random_gluing, random_lengths
 from scipy.sparse import csr_array
 
 import igl_periods as ip
-from igl_periods.delaunay import intrinsic_delaunay
-from igl_periods.delta_complex import check_surface, is_orientable
-from igl_periods.double import double, involution, lift, real_structure
-from igl_periods.equivalence import symplectic_isomorphisms
-from igl_periods.high_order import dirichlet_matrix, high_order_forms
-from igl_periods.homology import cochains_and_basis, pairing
-from igl_periods.periods import PeriodMatrix
-from igl_periods.symplectic import standard_form
+from igl_periods.complexes.delaunay import intrinsic_delaunay
+from igl_periods.complexes.doubling import double, involution, lift
+from igl_periods.complexes.surface_checks import check_surface, is_orientable
+from igl_periods.elements.least_energy import dirichlet_matrix, high_order_forms
+from igl_periods.moduli.equivalence import symplectic_isomorphisms
+from igl_periods.periods.matrix import PeriodMatrix
+from igl_periods.periods.real_surfaces import real_structure
+from igl_periods.symplectic.canonical_basis import standard_form
+from igl_periods.topology.cohomology import cochains_and_basis, pairing
 
 
 def tau_inside_certificate(pm, tau):

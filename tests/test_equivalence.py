@@ -12,14 +12,12 @@ from modular_words import random_point, random_word
 from scipy.sparse import csr_array
 
 import igl_periods as ip
-from igl_periods import isometries
-from igl_periods.automorphisms import symplectic_automorphism_group
-from igl_periods.catalogue import binomial_period_matrix
-from igl_periods.equivalence import moduli_distance, symplectic_isomorphisms
-from igl_periods.errors import NotASiegelPointError
-from igl_periods.lattice import EnumerationLimitError
-from igl_periods.refinement import split
-from igl_periods.siegel import siegel_distance, siegel_transform
+from igl_periods.complexes.midpoint_subdivision import split
+from igl_periods.errors import EnumerationLimitError, NotASiegelPointError
+from igl_periods.moduli import lattice_isometries as isometries
+from igl_periods.moduli.automorphisms import symplectic_automorphism_group
+from igl_periods.moduli.equivalence import moduli_distance, symplectic_isomorphisms
+from igl_periods.siegel.half_space import siegel_distance, siegel_transform
 from igl_periods.surfaces import (
     cyclic_cover,
     flat_torus,
@@ -29,7 +27,8 @@ from igl_periods.surfaces import (
     square_tiled_period_matrix,
     square_tiled_surface,
 )
-from igl_periods.symplectic import standard_form
+from igl_periods.surfaces.named_surfaces import binomial_period_matrix
+from igl_periods.symplectic.canonical_basis import standard_form
 
 cases = st.tuples(st.integers(1, 6), st.integers(0, 2**32 - 1), st.integers(0, 30))
 

@@ -8,10 +8,10 @@ from random_surfaces import BOLZA, L_SHAPE, torus_grid
 from scipy.sparse import csr_array
 
 import igl_periods as ip
-from igl_periods.delaunay import intrinsic_delaunay
-from igl_periods.delta_complex import cotan_weights
-from igl_periods.double_graph import double_graph
-from igl_periods.forms import (
+from igl_periods.complexes.delaunay import intrinsic_delaunay
+from igl_periods.complexes.half_edges import edge_ends
+from igl_periods.complexes.weights import cotan_weights
+from igl_periods.forms.calculus import (
     adjoint_d0,
     adjoint_d1,
     area,
@@ -30,8 +30,8 @@ from igl_periods.forms import (
     type_10,
     wedge,
 )
-from igl_periods.harmonic import edge_ends, laplacian
-from igl_periods.quad_graph import (
+from igl_periods.forms.graph import double_graph
+from igl_periods.forms.quad_graph import (
     on_diagonals,
     quad_product,
     side_d0,
@@ -40,6 +40,7 @@ from igl_periods.quad_graph import (
     side_product,
     side_wedge,
 )
+from igl_periods.harmonic.laplace_matrix import laplacian
 
 GRAPHS = {name: surface.graph for name, surface in SURFACES.items()}
 

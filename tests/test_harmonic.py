@@ -5,14 +5,11 @@ import pytest
 from random_surfaces import BOLZA, L_SHAPE, noisy_torus, random_gluing, random_lengths
 
 import igl_periods as ip
-from igl_periods.delta_complex import cotan_weights
-from igl_periods.harmonic import (
-    dirichlet_matrix,
-    edge_ends,
-    harmonic_potentials,
-    laplacian,
-    weighted_energies,
-)
+from igl_periods.complexes.half_edges import edge_ends
+from igl_periods.complexes.weights import cotan_weights
+from igl_periods.harmonic.energies import dirichlet_matrix, weighted_energies
+from igl_periods.harmonic.laplace_matrix import laplacian
+from igl_periods.harmonic.potentials import harmonic_potentials
 
 
 def dense_forms(K, weights, cochains):

@@ -9,15 +9,16 @@ import pytest
 from random_surfaces import BOLZA, noisy_torus, random_gluing, random_lengths
 
 import igl_periods as ip
-from igl_periods import harmonic_energies, linear_forms
-from igl_periods.delaunay import intrinsic_delaunay
-from igl_periods.delta_complex import cotan_weights
-from igl_periods.harmonic import dirichlet_matrix, factorised, harmonic_potentials
-from igl_periods.harmonic_energies import harmonic_problem, linear_energies
-from igl_periods.homology import cochains_and_basis
-from igl_periods.linear_forms import Jumps, LinearForms, WeightedFaces, mutual_energies
-from igl_periods.rounding import geometric_allowance
+from igl_periods.complexes.delaunay import intrinsic_delaunay
+from igl_periods.complexes.weights import cotan_weights
+from igl_periods.harmonic import energies as harmonic_energies
+from igl_periods.harmonic import linear_forms
+from igl_periods.harmonic.energies import dirichlet_matrix, harmonic_problem, linear_energies
+from igl_periods.harmonic.linear_forms import Jumps, LinearForms, WeightedFaces, mutual_energies
+from igl_periods.harmonic.potentials import factored, harmonic_potentials
+from igl_periods.harmonic.rounding import geometric_allowance
 from igl_periods.surfaces import thickened_lattice
+from igl_periods.topology.cohomology import cochains_and_basis
 
 
 def lattice(shape):
@@ -57,7 +58,7 @@ def test_panels_hold_no_more_than_they_may():
     K = ip.DeltaComplex.from_mesh(*thickened_lattice((4, 4, 4), 4, jitter=0.1))
     cochains, _ = cochains_and_basis(K)
     laplacian, problem = harmonic_problem(K, cochains)
-    factor = factorised(laplacian)
+    factor = factored(laplacian)
 
     def peak(memory):
         tracemalloc.start()

@@ -8,11 +8,11 @@ from random_surfaces import BOLZA, L_SHAPE
 from scipy.sparse import csr_array
 
 import igl_periods as ip
-from igl_periods.delaunay import intrinsic_delaunay
-from igl_periods.delta_complex import cotan_weights
-from igl_periods.double_graph import double_graph
-from igl_periods.dual_cycles import crossing_cochain, dual_homology_basis
-from igl_periods.forms import (
+from igl_periods.complexes.cochains import walk_cochain
+from igl_periods.complexes.delaunay import intrinsic_delaunay
+from igl_periods.complexes.half_edges import edge_ends
+from igl_periods.complexes.weights import cotan_weights
+from igl_periods.forms.calculus import (
     adjoint_d0,
     area,
     conformal_energy,
@@ -26,16 +26,12 @@ from igl_periods.forms import (
     type_01,
     wedge,
 )
-from igl_periods.harmonic import edge_ends
-from igl_periods.hodge import hodge_decomposition
-from igl_periods.holomorphic import (
-    harmonic_forms,
-    holomorphic_forms,
-    periods,
-    symplectic_mean_forms,
-)
-from igl_periods.homology import walk_cochain
-from igl_periods.symplectic import standard_form
+from igl_periods.forms.graph import double_graph
+from igl_periods.forms.hodge import hodge_decomposition
+from igl_periods.forms.holomorphic import holomorphic_forms, periods, symplectic_mean_forms
+from igl_periods.harmonic.harmonic_cochains import harmonic_forms
+from igl_periods.symplectic.canonical_basis import standard_form
+from igl_periods.topology.dual_cycles import crossing_cochain, dual_homology_basis
 
 
 @pytest.fixture(params=SURFACES)

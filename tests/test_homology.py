@@ -6,14 +6,14 @@ from random_surfaces import BOLZA, HEXAGON, L_SHAPE, noisy_torus, random_gluing,
 from scipy.sparse import csr_array
 
 import igl_periods as ip
-from igl_periods.homology import (
-    cochains_and_basis,
-    cotree_cochains,
-    pairing,
-    tree_cotree,
-    walk_cochain,
+from igl_periods.complexes.cochains import walk_cochain
+from igl_periods.symplectic.canonical_basis import (
+    integer_symplectic_basis,
+    is_symplectic,
+    standard_form,
 )
-from igl_periods.symplectic import integer_symplectic_basis, is_symplectic, standard_form
+from igl_periods.topology.cohomology import cochains_and_basis, cotree_cochains, pairing
+from igl_periods.topology.spanning_trees import tree_cotree
 
 
 def _surfaces():

@@ -10,27 +10,14 @@ from random_surfaces import BOLZA, HEXAGON, L_SHAPE, noisy_torus
 from scipy.sparse import csr_array
 
 import igl_periods as ip
-from igl_periods.dual_cycles import (
-    crossing_cochain,
-    dual_homology_basis,
-    dual_walk,
-)
-from igl_periods.homology import (
-    cotree_cochains,
-    half_edge_ends,
-    pairing,
-    rooted_loops,
-    tree_cotree,
-    walk_cochain,
-)
-from igl_periods.homotopy import (
-    fundamental_polygon,
-    shortest_loops,
-    shortest_tree_cotree,
-    walk_vertices,
-    word_pairing,
-)
-from igl_periods.symplectic import standard_form
+from igl_periods.complexes.cochains import walk_cochain
+from igl_periods.complexes.half_edges import half_edge_ends, walk_vertices
+from igl_periods.symplectic.canonical_basis import standard_form
+from igl_periods.topology.cohomology import cotree_cochains, pairing
+from igl_periods.topology.cycles import rooted_loops
+from igl_periods.topology.dual_cycles import crossing_cochain, dual_homology_basis, dual_walk
+from igl_periods.topology.fundamental_group import fundamental_polygon, shortest_loops, word_pairing
+from igl_periods.topology.spanning_trees import shortest_tree_cotree, tree_cotree
 
 SURFACES = {
     "one vertex": ip.DeltaComplex.from_squares(L_SHAPE, 1),

@@ -15,19 +15,19 @@ from moebius import moebius_distance
 from scipy.sparse import csr_array
 
 import igl_periods as ip
-from igl_periods.catalogue import binomial_period_matrix
-from igl_periods.equivalence import symplectic_isomorphisms
 from igl_periods.errors import NotASiegelPointError
-from igl_periods.genus_two import igusa_clebsch_invariants, rosenhain_roots
-from igl_periods.invariants import (
+from igl_periods.moduli.equivalence import symplectic_isomorphisms
+from igl_periods.moduli.genus_one import j_invariant
+from igl_periods.moduli.genus_two import igusa_clebsch_invariants, rosenhain_roots
+from igl_periods.moduli.quadratic_numbers import recognise_entries, recognise_quadratic
+from igl_periods.moduli.theta import (
     is_hyperelliptic,
-    j_invariant,
     theta_constants,
-    to_flint,
     vanishing_even_characteristics,
 )
-from igl_periods.recognition import recognise_entries, recognise_quadratic
-from igl_periods.siegel import siegel_reduce, siegel_transform
+from igl_periods.siegel.balls import to_flint
+from igl_periods.siegel.half_space import siegel_transform
+from igl_periods.siegel.reduction import siegel_reduce
 from igl_periods.surfaces import (
     cyclic_cover,
     flat_torus,
@@ -36,7 +36,8 @@ from igl_periods.surfaces import (
     square_tiled_period_matrix,
     square_tiled_surface,
 )
-from igl_periods.symplectic import energy_matrix
+from igl_periods.surfaces.named_surfaces import binomial_period_matrix
+from igl_periods.symplectic.williamson_form import energy_matrix
 
 BRANCHED = [0, 1, np.inf]
 

@@ -10,7 +10,8 @@ import pytest
 
 import igl_periods as ip
 from igl_periods import memory
-from igl_periods.cli import main
+from igl_periods.cli.program import main
+from igl_periods.periods.memory_estimates import room_for_forms
 from igl_periods.surfaces import square_tiled_surface, thickened_lattice
 
 LATTICE = thickened_lattice((4, 3, 3), 2, jitter=0.1)
@@ -46,7 +47,7 @@ def test_high_order_is_refused_too():
 def test_just_enough_memory_gives_the_same_matrix():
     # The least that is not refused leaves room for 64 of 80 functions.
     K = ip.DeltaComplex.from_mesh(*LATTICE)
-    needed = 1e12 - memory.room_for_forms(K, 1e12)
+    needed = 1e12 - room_for_forms(K, 1e12)
     least = 1.001 * (needed + 8 * K.n_vertices * 64)
     whole, tight = ip.period_matrix(K), ip.period_matrix(K, max_memory=least)
     assert abs(whole.bound - tight.bound) < 1e-12
@@ -72,7 +73,7 @@ assert available_memory() <= 10_000_000 < free
 def test_estimates_grow_with_size_and_genus(handles):
     small = thickened_lattice((2, 2, 2), 4)
     large = thickened_lattice((2, 2, 2 + handles // 4), 8)
-    room = [memory.room_for_forms(ip.DeltaComplex.from_mesh(*mesh), 1e9) for mesh in (small, large)]
+    room = [room_for_forms(ip.DeltaComplex.from_mesh(*mesh), 1e9) for mesh in (small, large)]
     assert room[1] < room[0] < 1e9
 
 

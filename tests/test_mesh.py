@@ -13,10 +13,10 @@ import pytest
 from mesh_files import cube, gltf, halved, obj, off, ply, stl, torus, written
 
 import igl_periods as ip
-from igl_periods.delta_complex import check_surface
-from igl_periods.mesh import load_mesh, split_components
-from igl_periods.mesh_facts import mesh_facts
-from igl_periods.mesh_repair import repair_mesh
+from igl_periods.complexes.surface_checks import check_surface
+from igl_periods.meshes.facts import mesh_facts
+from igl_periods.meshes.load import load_mesh, split_components
+from igl_periods.meshes.repair import repair_mesh
 
 # The INDEX.md of the folder of meshes: vertices, triangles, bad edges, bad vertices,
 # inconsistently oriented edges, and components as (genus or crosscaps, boundary loops): number.
@@ -304,7 +304,7 @@ def test_gltf_is_read_by_open3d(tmp_path):
 def test_open3d_is_not_imported_where_it_is_not_needed(tmp_path):
     path = written(tmp_path / "mesh.off", off(*torus()))
     code = (
-        "import sys; from igl_periods.mesh import load_mesh; "
+        "import sys; from igl_periods.meshes.load import load_mesh; "
         f"load_mesh({str(path)!r}, repair=True); sys.exit('open3d' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

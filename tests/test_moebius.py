@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 from modular_words import random_point, random_word
 
-from igl_periods.half_space import siegel_transform
-from igl_periods.integer_matrices import product, unimodular_inverse
-from igl_periods.symplectic import is_symplectic, standard_form
+from igl_periods.siegel.half_space import siegel_transform
+from igl_periods.symplectic.canonical_basis import is_symplectic, standard_form
+from igl_periods.symplectic.integer_matrices import product, unimodular_inverse
 
 HIGH = 42
 
@@ -46,10 +46,10 @@ def test_one_correction_is_enough_for_ordinary_points(length, monkeypatch):
     rng = np.random.default_rng(length)
     Pi, gamma = random_point(HIGH, rng), random_word(HIGH, length, rng)
     with_either = siegel_transform(gamma, Pi)
-    monkeypatch.setattr("igl_periods.moebius._in_balls", None)
+    monkeypatch.setattr("igl_periods.siegel.action._in_balls", None)
     assert np.array_equal(siegel_transform(gamma, Pi), with_either)
     monkeypatch.undo()
-    monkeypatch.setattr("igl_periods.moebius._BALL_GENUS", HIGH)
+    monkeypatch.setattr("igl_periods.siegel.action._BALL_GENUS", HIGH)
     assert np.abs(siegel_transform(gamma, Pi) - with_either).max() <= 2.0**-52
 
 

@@ -8,9 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from modular_words import random_point, random_word
 
-from igl_periods.pairwise import pairwise_reduction
-from igl_periods.siegel import siegel_transform
-from igl_periods.symplectic import energy_matrix, form_action, standard_form
+from igl_periods.siegel.half_space import siegel_transform
+from igl_periods.siegel.reducing_pairs import pairwise_reduction
+from igl_periods.symplectic.canonical_basis import form_action, standard_form
+from igl_periods.symplectic.williamson_form import energy_matrix
 
 
 def scrambled_energies(g, seed, length):

@@ -11,23 +11,21 @@ from flat_surfaces import flat_strip
 from random_surfaces import BOLZA, noisy_torus, torus_of_revolution
 
 import igl_periods as ip
-from igl_periods.cycles import canonical_cycles
-from igl_periods.delaunay import intrinsic_delaunay
-from igl_periods.differentials import abel_jacobi, normalised_differentials, primitive
-from igl_periods.double import double
-from igl_periods.face_forms import along_sides, face_areas, linear_parts
-from igl_periods.form_choice import (
-    evenness,
-    form_of_periods,
-    form_of_real_periods,
-    most_even_form,
-)
-from igl_periods.homology import homology_basis, walk_cochain
-from igl_periods.parametrization import parametrize
-from igl_periods.periods import PeriodMatrix
-from igl_periods.refinement import split
+from igl_periods.complexes.cochains import along_sides, primitive, walk_cochain
+from igl_periods.complexes.delaunay import intrinsic_delaunay
+from igl_periods.complexes.doubling import double
+from igl_periods.complexes.midpoint_subdivision import split
+from igl_periods.differentials.even_form import evenness, most_even_form
+from igl_periods.differentials.jacobian import abel_jacobi
+from igl_periods.differentials.normalised import normalised_differentials
+from igl_periods.differentials.parametrization import parametrize
+from igl_periods.differentials.prescribed_periods import form_of_periods, form_of_real_periods
+from igl_periods.harmonic.constant_forms import face_areas, linear_parts
+from igl_periods.periods.matrix import PeriodMatrix
+from igl_periods.pictures.textured_meshes import write_glb, write_obj
 from igl_periods.surfaces import flat_torus
-from igl_periods.uv_export import write_glb, write_obj
+from igl_periods.topology.cycles import homology_basis
+from igl_periods.topology.short_cycles import canonical_cycles
 
 
 def genus_three():
@@ -86,7 +84,9 @@ def random_coefficients(g, seed):
 def test_periods_are_those_of_the_matrix(surfaces, name):
     pm = surfaces[name]
     zeta = normalised_differentials(pm)
-    walks = np.array([walk_cochain(pm.complex, walk) for walk in canonical_cycles(pm)])
+    walks = np.array(
+        [walk_cochain(pm.complex, walk) for walk in canonical_cycles(pm.complex, pm.cocycles)]
+    )
     expected = np.concatenate([np.eye(pm.genus), pm.matrix], axis=1)
     np.testing.assert_allclose(zeta @ walks.T, expected, rtol=0, atol=1e-12)
     around = along_sides(pm.complex, zeta).sum(axis=-1)
@@ -339,7 +339,7 @@ def test_cycles_are_short_and_in_their_classes(surfaces):
     for pm in surfaces.values():
         K = pm.complex
         for marking in (pm, ip.period_matrix(K)):
-            cycles = canonical_cycles(marking)
+            cycles = canonical_cycles(marking.complex, marking.cocycles)
             periods = marking.cocycles @ np.array([walk_cochain(K, w) for w in cycles]).T
             assert np.array_equal(periods, np.eye(2 * pm.genus))
             for walk in cycles:
@@ -348,13 +348,13 @@ def test_cycles_are_short_and_in_their_classes(surfaces):
                 assert np.array_equal(ends, np.roll(starts, -1))
         length = K.lengths.ravel()
         before = sum(length[w].sum() for w in homology_basis(K))
-        assert sum(length[w].sum() for w in canonical_cycles(ip.period_matrix(K))) <= before
+        assert sum(length[w].sum() for w in canonical_cycles(K, ip.cohomology_basis(K))) <= before
 
 
 def test_cycles_of_flat_tori_are_shortest_lattice_vectors():
     pm = ip.period_matrix(flat_torus(1.3j, 5, 4)).reduced()
     length = pm.complex.lengths.ravel()
-    found = sorted(length[walk].sum() for walk in canonical_cycles(pm))
+    found = sorted(length[walk].sum() for walk in canonical_cycles(pm.complex, pm.cocycles))
     np.testing.assert_allclose(found, [1.0, 1.3], rtol=1e-12)
 
 

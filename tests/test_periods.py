@@ -22,11 +22,13 @@ from random_surfaces import (
 from scipy.sparse import csr_array
 
 import igl_periods as ip
-from igl_periods.delta_complex import cotan_weights, extrinsic_weights
-from igl_periods.harmonic import dirichlet_matrix, harmonic_potentials
-from igl_periods.homology import pairing
-from igl_periods.periods import siegel_reduced
-from igl_periods.symplectic import energy_matrix, form_action, is_symplectic, standard_form
+from igl_periods.complexes.weights import cotan_weights, extrinsic_weights
+from igl_periods.harmonic.energies import dirichlet_matrix
+from igl_periods.harmonic.potentials import harmonic_potentials
+from igl_periods.periods.matrix import siegel_reduced
+from igl_periods.symplectic.canonical_basis import form_action, is_symplectic, standard_form
+from igl_periods.symplectic.williamson_form import energy_matrix
+from igl_periods.topology.cohomology import pairing
 
 SQUARE_TILED = [(L_SHAPE, OMEGA_1), (BOLZA, OMEGA_2), (HEXAGON, OMEGA_3)]
 
@@ -347,7 +349,8 @@ def test_several_reductions_are_one_product(computed, monkeypatch):
     T, J = np.eye(4, dtype=int) + np.diag([1, 1], 2), standard_form(2)
     gammas = iter([T, J, np.eye(4, dtype=int)])
     monkeypatch.setattr(
-        "igl_periods.periods.siegel_reduce", lambda _, **__: SimpleNamespace(gamma=next(gammas))
+        "igl_periods.periods.matrix.siegel_reduce",
+        lambda _, **__: SimpleNamespace(gamma=next(gammas)),
     )
     reduced, total = siegel_reduced(pm)
     assert np.array_equal(total, J @ T)

@@ -1,6 +1,5 @@
 """Pictures: what scenes contain, what is drawn of it, and the commands that draw."""
 
-import argparse
 import builtins
 import ctypes
 import subprocess
@@ -14,14 +13,15 @@ from PIL import Image
 from random_surfaces import torus_of_revolution
 
 import igl_periods as ip
-from igl_periods.cli_pictures import add_commands
-from igl_periods.curves import smooth_closed_curves, tube
-from igl_periods.double import double
-from igl_periods.form_choice import most_even_form
-from igl_periods.parametrization import parametrize
-from igl_periods.quality import mesh_quality
-from igl_periods.render import RenderError, check_display, render, save, with_legend
-from igl_periods.scenes import (
+from igl_periods.cli import program
+from igl_periods.complexes.doubling import double
+from igl_periods.differentials.even_form import most_even_form
+from igl_periods.differentials.parametrization import parametrize
+from igl_periods.errors import RenderError
+from igl_periods.meshes.surface_files import components_by_genus, surface_of
+from igl_periods.periods.quality import mesh_quality
+from igl_periods.pictures.rendering import check_display, render, save, with_legend
+from igl_periods.pictures.scenes import (
     Scene,
     checkerboard,
     checkerboard_scene,
@@ -33,7 +33,7 @@ from igl_periods.scenes import (
     quality_scene,
     surface_in_space,
 )
-from igl_periods.surface_choice import components_by_genus, surface_of
+from igl_periods.pictures.tubes import smooth_closed_curves, tube
 from igl_periods.surfaces import flat_torus
 
 LAWSON = Path(__file__).parents[1] / "data" / "lawson_2_1.off"
@@ -312,7 +312,7 @@ def test_missing_egl_is_named(torus, monkeypatch):
 
 def test_open3d_is_imported_for_pictures_only():
     program = (
-        "import sys, igl_periods, igl_periods.cli, igl_periods.cli_pictures, igl_periods.report;"
+        "import sys, igl_periods, igl_periods.cli, igl_periods.reports;"
         f"V, F, _ = igl_periods.load_mesh({str(LAWSON)!r});"
         "igl_periods.period_matrix(V, F);"
         "sys.exit(sum(name in sys.modules for name in ('open3d', 'matplotlib', 'PIL')))"
@@ -327,8 +327,7 @@ def test_open3d_is_imported_for_pictures_only():
 def command(monkeypatch):
     monkeypatch.delenv("DISPLAY", raising=False)
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
-    parser = argparse.ArgumentParser(prog="igl-periods")
-    add_commands(parser.add_subparsers(required=True))
+    parser = program._parser()
 
     def run(*arguments):
         options = parser.parse_args([str(argument) for argument in arguments])

@@ -13,19 +13,25 @@ from random_surfaces import (
 from scipy.sparse import csr_array
 
 import igl_periods as ip
-from igl_periods.delaunay import intrinsic_delaunay
-from igl_periods.delta_complex import check_surface, cone_angles, cotan_weights
-from igl_periods.energy_excess import energy_excess, williamson_basis
-from igl_periods.face_forms import face_areas, gradients, linear_parts
-from igl_periods.harmonic import dirichlet_matrix, edge_ends, harmonic_potentials
-from igl_periods.high_order import dirichlet_matrix as high_order_matrix
-from igl_periods.high_order import high_order_forms
-from igl_periods.homology import pairing
-from igl_periods.local_refinement import insert_barycentres, refined_period_matrix
-from igl_periods.periods import PeriodMatrix
-from igl_periods.quality import advice, mesh_quality
+from igl_periods.complexes.barycentre_insertion import insert_barycentres
+from igl_periods.complexes.delaunay import intrinsic_delaunay
+from igl_periods.complexes.half_edges import edge_ends
+from igl_periods.complexes.surface_checks import check_surface
+from igl_periods.complexes.weights import cone_angles, cotan_weights
+from igl_periods.elements.least_energy import dirichlet_matrix as high_order_matrix
+from igl_periods.elements.least_energy import high_order_forms
+from igl_periods.harmonic.constant_forms import face_areas, gradients, linear_parts
+from igl_periods.harmonic.energies import dirichlet_matrix
+from igl_periods.harmonic.excess import energy_excess
+from igl_periods.harmonic.potentials import harmonic_potentials
+from igl_periods.periods.adaptive_mesh import refined_period_matrix
+from igl_periods.periods.matrix import PeriodMatrix
+from igl_periods.periods.quality import mesh_quality
+from igl_periods.reports.words import advice
 from igl_periods.surfaces import flat_torus
-from igl_periods.symplectic import standard_form, williamson
+from igl_periods.symplectic.canonical_basis import standard_form
+from igl_periods.symplectic.williamson_form import williamson, williamson_basis
+from igl_periods.topology.cohomology import pairing
 
 
 def random_genus_two(seed):

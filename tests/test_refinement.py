@@ -6,11 +6,13 @@ from random_surfaces import BOLZA, L_SHAPE, noisy_torus, random_gluing, random_l
 from scipy.sparse import csr_array
 
 import igl_periods as ip
-from igl_periods.delta_complex import cone_angles, cotan_weights, is_orientable
-from igl_periods.harmonic import dirichlet_matrix, harmonic_potentials
-from igl_periods.homology import pairing
-from igl_periods.refinement import locate, split
-from igl_periods.triangles import double_areas
+from igl_periods.complexes.midpoint_subdivision import locate, split
+from igl_periods.complexes.surface_checks import is_orientable
+from igl_periods.complexes.triangles import double_areas
+from igl_periods.complexes.weights import cone_angles, cotan_weights
+from igl_periods.harmonic.energies import dirichlet_matrix
+from igl_periods.harmonic.potentials import harmonic_potentials
+from igl_periods.topology.cohomology import pairing
 
 
 def _surfaces():

@@ -14,9 +14,9 @@ import pytest
 from PIL import Image
 
 import igl_periods as ip
-from igl_periods import report
-from igl_periods.render import RenderError
-from igl_periods.report import write_report
+from igl_periods.errors import RenderError
+from igl_periods.reports import page as report
+from igl_periods.reports.page import write_report
 from igl_periods.surfaces import flat_torus
 
 LAWSON = Path(__file__).parents[1] / "data" / "lawson_2_1.off"

@@ -5,14 +5,10 @@ import pytest
 from scipy.sparse import csr_array
 
 import igl_periods as ip
-from igl_periods.richardson import richardson, sampled_torus
-from igl_periods.surfaces.lawson import lawson_surface
+from igl_periods.periods.extrapolation import richardson, sampled_torus
+from igl_periods.surfaces.lawson.surface import lawson_surface
 from igl_periods.surfaces.square_tiled import square_tiled_surface
-from igl_periods.surfaces.tori import (
-    flat_torus,
-    torus_of_revolution,
-    torus_of_revolution_modulus,
-)
+from igl_periods.surfaces.tori import flat_torus, torus_of_revolution, torus_of_revolution_modulus
 from igl_periods.surfaces.wente import wente_modulus, wente_torus
 
 

@@ -16,15 +16,15 @@ from flint import acb, arb
 from result_checks import check_result
 
 import igl_periods as ip
-from igl_periods.gluing import squares
-from igl_periods.homology import pairing
+from igl_periods.complexes.glued_squares import squares
 from igl_periods.surfaces import (
     glued_rectangles,
     menger_sponge,
     square_tiled_surface,
     thickened_lattice,
 )
-from igl_periods.symplectic import standard_form
+from igl_periods.symplectic.canonical_basis import standard_form
+from igl_periods.topology.cohomology import pairing
 
 BITS = 400
 

@@ -10,10 +10,12 @@ from modular_words import random_point, random_word
 from random_surfaces import L_SHAPE, noisy_torus, random_gluing, random_lengths
 
 import igl_periods as ip
-from igl_periods.delaunay import delaunay_flips
-from igl_periods.rounding import algebraic_allowance, allowance_for_loss, congruence
-from igl_periods.symplectic import energy_matrix, siegel_point, standard_form, williamson
-from igl_periods.triangles import length_sensitivity
+from igl_periods.complexes.delaunay import delaunay_flips
+from igl_periods.complexes.triangles import length_sensitivity
+from igl_periods.harmonic.rounding import allowance_for_loss
+from igl_periods.periods.rounding import algebraic_allowance, congruence
+from igl_periods.symplectic.canonical_basis import standard_form
+from igl_periods.symplectic.williamson_form import energy_matrix, siegel_point, williamson
 
 
 def needle_gluing(n_faces, size, rng):

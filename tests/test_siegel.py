@@ -10,26 +10,21 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from modular_words import random_point, random_word
 
-from igl_periods.all_swap import all_swap_lll
-from igl_periods.errors import NotASiegelPointError
-from igl_periods.half_space import check_symplectic
-from igl_periods.lattice import (
-    EnumerationLimitError,
-    is_lll_reduced,
-    lll_basis,
-    short_vectors,
-    shortest_first,
-)
-from igl_periods.pairwise import pairwise_reduction
-from igl_periods.siegel import (
-    SIEGEL_GENUS_LIMIT,
+from igl_periods.errors import EnumerationLimitError, NotASiegelPointError
+from igl_periods.siegel.enumeration import short_vectors
+from igl_periods.siegel.half_space import (
     check_siegel_point,
+    check_symplectic,
     siegel_distance,
-    siegel_reduce,
     siegel_transform,
 )
-from igl_periods.siegel_steps import inversion_step, lattice_step
-from igl_periods.symplectic import energy_matrix, form_action, standard_form
+from igl_periods.siegel.lll import is_lll_reduced, lll_basis, shortest_first
+from igl_periods.siegel.lll_in_floats import all_swap_lll
+from igl_periods.siegel.reducing_pairs import pairwise_reduction
+from igl_periods.siegel.reduction import SIEGEL_GENUS_LIMIT, siegel_reduce
+from igl_periods.siegel.reduction_steps import inversion_step, lattice_step
+from igl_periods.symplectic.canonical_basis import form_action, standard_form
+from igl_periods.symplectic.williamson_form import energy_matrix
 
 cases = st.tuples(st.integers(1, 6), st.integers(0, 2**32 - 1), st.integers(0, 40))
 
@@ -218,7 +213,8 @@ def test_the_walk_starts_at_a_pairwise_reduced_point(monkeypatch):
     Pi = siegel_transform(random_word(30, 100, rng), random_point(30, rng))
     seen = []
     monkeypatch.setattr(
-        "igl_periods.siegel.lattice_step", lambda point: seen.append(point) or lattice_step(point)
+        "igl_periods.siegel.reduction.lattice_step",
+        lambda point: seen.append(point) or lattice_step(point),
     )
     siegel_reduce(Pi)
     D = energy_matrix(Pi)

@@ -6,14 +6,14 @@ import logging
 import numpy as np
 import pytest
 
-from igl_periods import stages
-from igl_periods.cli import _StageFormatter
-from igl_periods.delta_complex import DeltaComplex
-from igl_periods.harmonic_energies import linear_energies
-from igl_periods.homology import cochains_and_basis
-from igl_periods.siegel import siegel_reduce
-from igl_periods.stages import logger, progress, stage
+from igl_periods import run_log as stages
+from igl_periods.cli.terminal import _StageFormatter
+from igl_periods.complexes.delta_complex import DeltaComplex
+from igl_periods.harmonic.energies import linear_energies
+from igl_periods.run_log import logger, progress, stage
+from igl_periods.siegel.reduction import siegel_reduce
 from igl_periods.surfaces import thickened_lattice
+from igl_periods.topology.cohomology import cochains_and_basis
 
 
 @pytest.fixture

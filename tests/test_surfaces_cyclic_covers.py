@@ -10,12 +10,12 @@ from hypothesis import strategies as st
 from matching import energy, isomorphisms, mobius
 
 import igl_periods as ip
-from igl_periods.delta_complex import cone_angles
-from igl_periods.siegel import siegel_reduce
+from igl_periods.complexes.triangles import angles, double_areas
+from igl_periods.complexes.weights import cone_angles
+from igl_periods.siegel.reduction import siegel_reduce
 from igl_periods.surfaces import cyclic_cover, square_tiled_period_matrix
 from igl_periods.surfaces.cyclic_covers import centred, on_sphere
-from igl_periods.surfaces.spheres import refined_sphere
-from igl_periods.triangles import angles, double_areas
+from igl_periods.surfaces.sphere_meshes import refined_sphere
 
 
 def random_points(n, seed):

@@ -8,10 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import igl_periods as ip
-from igl_periods.gluing import next_corner
-from igl_periods.homology import pairing
+from igl_periods.complexes.gluings import next_corner
 from igl_periods.surfaces import menger_sponge, thickened_lattice, voxel_surface
-from igl_periods.symplectic import standard_form
+from igl_periods.symplectic.canonical_basis import standard_form
+from igl_periods.topology.cohomology import pairing
 
 SIDES = st.integers(1, 4)
 

@@ -8,8 +8,8 @@ from markings import in_basis_of
 from matching import isomorphisms
 
 import igl_periods as ip
-from igl_periods.delta_complex import cotan_weights
-from igl_periods.homology import pairing
+from igl_periods.complexes.triangles import angles, cotangents, double_areas
+from igl_periods.complexes.weights import cotan_weights
 from igl_periods.surfaces import (
     lawson_period_matrix,
     lawson_period_matrix_in,
@@ -22,9 +22,9 @@ from igl_periods.surfaces import (
     square_tiled_period_matrix,
     stereographic,
 )
-from igl_periods.surfaces.lawson import discs
-from igl_periods.surfaces.plateau import laplacian, vertex_normals
-from igl_periods.triangles import angles, cotangents, double_areas
+from igl_periods.surfaces.lawson.plateau import laplacian, vertex_normals
+from igl_periods.surfaces.lawson.surface import discs
+from igl_periods.topology.cohomology import pairing
 
 ORDERS = [(1, 1), (2, 1), (1, 2), (3, 1), (2, 2), (3, 2), (3, 3), (4, 3)]
 

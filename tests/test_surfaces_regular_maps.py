@@ -7,8 +7,8 @@ from flint import acb
 from markings import in_basis_of, isomorphisms
 
 import igl_periods as ip
-from igl_periods.delta_complex import cone_angles
-from igl_periods.siegel import siegel_reduce
+from igl_periods.complexes.weights import cone_angles
+from igl_periods.siegel.reduction import siegel_reduce
 from igl_periods.surfaces import regular_map, regular_map_period_matrix, regular_map_surface
 
 # Faces enumerated on cosets of vertex stabilisers in PSL(2, 7) and in the group of order 96,

@@ -6,7 +6,7 @@ import pytest
 from matching import isomorphisms
 
 import igl_periods as ip
-from igl_periods.delta_complex import cone_angles
+from igl_periods.complexes.weights import cone_angles
 from igl_periods.surfaces import (
     glued_rectangles,
     origami,

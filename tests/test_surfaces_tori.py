@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from matching import mobius
 
 import igl_periods as ip
-from igl_periods.delta_complex import cone_angles
+from igl_periods.complexes.weights import cone_angles
 from igl_periods.surfaces import flat_torus, torus_of_revolution, torus_of_revolution_modulus
 
 REAL, IMAGINARY = st.floats(-3, 3), st.floats(0.05, 5)

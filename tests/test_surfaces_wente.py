@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import igl_periods as ip
-from igl_periods.delta_complex import cone_angles, cotan_weights
-from igl_periods.homology import half_edge_ends
+from igl_periods.complexes.half_edges import half_edge_ends
+from igl_periods.complexes.weights import cone_angles, cotan_weights
 from igl_periods.surfaces import wente_immersion, wente_modulus, wente_periods, wente_torus
 
 FAMILIES = [(3, 1), (2, 1), (4, 1), (5, 1), (5, 2), (5, 3), (7, 3), (9, 8)]

@@ -5,13 +5,11 @@ import pytest
 import scipy.linalg
 
 import igl_periods as ip
-from igl_periods.symplectic import (
+from igl_periods.symplectic.canonical_basis import form_action, is_symplectic, standard_form
+from igl_periods.symplectic.williamson_form import (
     _singular_pairs,
     energy_matrix,
-    form_action,
-    is_symplectic,
     siegel_point,
-    standard_form,
     williamson,
 )
 

@@ -13,9 +13,10 @@ from readers import READERS
 from result_checks import check_agreement, check_result
 
 import igl_periods as ip
-from igl_periods.mesh_repair import repair_mesh
-from igl_periods.periods import siegel_reduced
-from igl_periods.serialization import read_gluing, result_to_json
+from igl_periods.meshes.gluing_file import read_gluing
+from igl_periods.meshes.repair import repair_mesh
+from igl_periods.periods.matrix import siegel_reduced
+from igl_periods.reports.json_document import result_to_json
 
 MOST_FACES = 4_000
 

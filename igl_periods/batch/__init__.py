@@ -10,7 +10,8 @@ it stopped; when all files have their rows, they are written in the order of the
 (:mod:`igl_periods.batch.rows`), however many workers there are.
 """
 
-from .cluster import BatchError as BatchError
+from igl_periods.errors import BatchError as BatchError
+
 from .cluster import local_cluster as local_cluster
 from .cluster import remote_cluster as remote_cluster
 from .files import find_files as find_files

@@ -22,13 +22,13 @@ from distributed import Client, Future, KilledWorker, LocalCluster
 from distributed import TimeoutError as DaskTimeoutError
 from distributed.utils import silence_logging_cmgr
 
-from .rows import BatchOptions, Row, refused_row
-from .worker import compute_file
+from igl_periods.errors import BatchError
+
+from .rows import BatchOptions, Row, compute_file, refused_row
 
 Rows = list[Row]
 # The name of a file, and its rows or the number of workers that died on it.
 Outcome = tuple[str, Rows | int]
-
 # What decides the rows, and what the cluster speaks: the same everywhere, or rows could differ.
 _SAME_VERSIONS = (
     "igl_periods",
@@ -40,7 +40,6 @@ _SAME_VERSIONS = (
     "dask",
     "distributed",
 )
-
 _CONFIG = {
     # One task at a time is in the hands of a worker, so that no other one dies with it.
     "distributed.scheduler.worker-saturation": 1.0,
@@ -62,16 +61,11 @@ _CONFIG = {
     "distributed.nanny.pre-spawn-environ.OPENBLAS_NUM_THREADS": 1,
     "distributed.nanny.pre-spawn-environ.DASK_LOGGING__DISTRIBUTED": "critical",
 }
-
 _POLL = 1.0
 # How long a cluster may have no worker at all, in seconds.
 _PATIENCE = 120.0
 # How long to wait for a scheduler, and for a first worker of it.
 _CONNECTING = 15.0
-
-
-class BatchError(RuntimeError):
-    """A cluster cannot be used, or not any longer; the message says what to do."""
 
 
 @contextmanager

@@ -8,7 +8,7 @@ from os import PathLike
 from pathlib import Path
 
 from igl_periods.errors import MeshError
-from igl_periods.surface_choice import SURFACE_EXTENSIONS
+from igl_periods.meshes import SURFACE_EXTENSIONS
 
 
 def find_files(*sources: str | PathLike[str]) -> dict[str, Path]:

@@ -8,7 +8,7 @@ part of it.
 
 Matrices are flat, row by row: Π is ``reshape(matrix_real, (g, g)) + 1j * reshape(matrix_imag,
 (g, g))``, Siegel reduced unless ``reduced`` is False.  It is known up to the marking only, and two
-matrices are compared with :func:`~igl_periods.equivalence.symplectic_isomorphisms`, not entry by
+matrices are compared with :func:`~igl_periods.symplectic_isomorphisms`, not entry by
 entry.  Invariants of Π do not depend on the marking:
 
 * g = 1: Klein's j in ball arithmetic, with a certified radius where Π has a bound;
@@ -23,6 +23,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import threading
 import time
 import warnings
 from collections.abc import Callable, Iterator
@@ -36,19 +37,23 @@ import flint
 import numpy as np
 from threadpoolctl import ThreadpoolController
 
-from igl_periods.adaptive import ToleranceWarning
-from igl_periods.delta_complex import DeltaComplex
-from igl_periods.errors import ComplexError, NotASiegelPointError
-from igl_periods.genus_two import igusa_clebsch_invariants, rosenhain_roots
-from igl_periods.invariants import vanishing_even_characteristics
-from igl_periods.mesh_report import MeshReport
-from igl_periods.periods import PeriodMatrix
-from igl_periods.pipeline import as_complex, check_options, period_matrix
-from igl_periods.siegel import SIEGEL_GENUS_LIMIT
-from igl_periods.surface_choice import components_by_genus, read_surface, surface_of
+from igl_periods.complexes import DeltaComplex
+from igl_periods.meshes import MeshReport, components_by_genus, read_surface, surface_of
+from igl_periods.moduli import (
+    igusa_clebsch_invariants,
+    rosenhain_roots,
+    vanishing_even_characteristics,
+)
+from igl_periods.periods import (
+    PeriodMatrix,
+    ToleranceWarning,
+    as_complex,
+    check_options,
+    period_matrix,
+    reduced_if_feasible,
+)
 
 Row = dict[str, Any]
-
 # The columns in their order; every value may be None, except for the file.
 COLUMNS: dict[str, Any] = {
     "file": str,  # as it was found, relative to the folder that was searched
@@ -79,10 +84,8 @@ COLUMNS: dict[str, Any] = {
     "error": str,
     "error_kind": str,
 }
-
 # The kind of error of a file on which workers died.
 DIED = "WorkerDied"
-
 _PRECISION = 96
 _BYTES_AT_ONCE = 2**20
 
@@ -96,7 +99,7 @@ class BatchOptions:
     repair, double : bool
         Repair meshes; take the doubles of the surfaces.
     weights, delaunay, degree, tolerance
-        As in :func:`~igl_periods.pipeline.period_matrix`.
+        As in :func:`~igl_periods.period_matrix`.
 
     Raises
     ------
@@ -119,7 +122,7 @@ class BatchOptions:
         return json.dumps(asdict(self))
 
     def of_period_matrix(self) -> dict[str, Any]:
-        """The keywords of :func:`~igl_periods.pipeline.period_matrix`."""
+        """The keywords of :func:`~igl_periods.period_matrix`."""
         return {k: v for k, v in asdict(self).items() if k not in ("repair", "double")}
 
 
@@ -223,12 +226,13 @@ def _period_columns(K: DeltaComplex, options: BatchOptions) -> Row:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         pm = period_matrix(K, **options.of_period_matrix())
-    pm, reduced = _reduced(pm)
+        reduced, _ = reduced_if_feasible(pm)
+    pm = pm if reduced is None else reduced
     told = [str(w.message) for w in caught if issubclass(w.category, ToleranceWarning)]
     bounds = pm.entry_bounds
     return {
         "genus": pm.genus,
-        "reduced": reduced,
+        "reduced": reduced is not None,
         "matrix_real": pm.matrix.real.ravel().tolist(),
         "matrix_imag": pm.matrix.imag.ravel().tolist(),
         "bound": pm.bound,
@@ -237,16 +241,6 @@ def _period_columns(K: DeltaComplex, options: BatchOptions) -> Row:
         "warning": " ".join(told) or None,
         **_invariants(pm),
     }
-
-
-def _reduced(pm: PeriodMatrix) -> tuple[PeriodMatrix, bool]:
-    """The reduced matrix, or the given one if its genus or its extremes are too large for that."""
-    if pm.genus > SIEGEL_GENUS_LIMIT:
-        return pm, False
-    try:
-        return pm.reduced(), True
-    except (ComplexError, NotASiegelPointError):
-        return pm, False
 
 
 def _invariants(pm: PeriodMatrix) -> Row:
@@ -302,3 +296,12 @@ def _stopwatch() -> Callable[[], float]:
 @cache
 def _linear_algebra() -> ThreadpoolController:
     return ThreadpoolController()
+
+
+_alone = threading.Lock()
+
+
+def compute_file(path: str, name: str, options: BatchOptions) -> list[Row]:
+    """:func:`rows_of`, waiting until this process computes nothing else."""
+    with _alone:
+        return rows_of(path, options, name)

@@ -13,12 +13,10 @@ import traceback
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from igl_periods.cli import reduced_as_wanted, show_stages
-from igl_periods.cli_surface import add_surface_arguments, read_surfaces
-from igl_periods.mesh import MeshReport
-from igl_periods.periods import PeriodMatrix
-from igl_periods.serialization import SCHEMA, result_to_json
-from igl_periods.summary import summary
+from igl_periods.cli import add_surface_arguments, read_surfaces, refused, show_stages
+from igl_periods.meshes import MeshReport
+from igl_periods.periods import PeriodMatrix, reduced_if_feasible
+from igl_periods.reports import SCHEMA, result_to_json, summary
 
 from .collective import on_root
 from .libraries import load_petsc, world
@@ -34,7 +32,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         comm = world()
         load_petsc()
     except ImportError as error:
-        return _refused(str(error))
+        return refused(str(error))
     try:
         options = _parsed(comm, arguments)
         return options if isinstance(options, int) else _compute(comm, options)
@@ -92,7 +90,7 @@ def _compute(comm: Intracomm, options: argparse.Namespace) -> int:
         # These are everyone's.  mpiexec ends all ranks as soon as one fails: that has to wait.
         if comm.rank == 0:
             message = str(error)
-            _refused(message if options.mesh in message else f"{options.mesh}: {message}")
+            refused(message if options.mesh in message else f"{options.mesh}: {message}")
         comm.Barrier()
         return 1
     if pm is not None:
@@ -101,7 +99,7 @@ def _compute(comm: Intracomm, options: argparse.Namespace) -> int:
 
 
 def _printed(options: argparse.Namespace, pm: PeriodMatrix, report: MeshReport | None) -> str:
-    result = reduced_as_wanted(pm, None)
+    result = (pm, *reduced_if_feasible(pm))
     if not options.json:
         return f"{report or options.mesh}\n{summary(*result)}"
     names = ("repair", "double", "component", "delaunay", "rtol")
@@ -113,11 +111,6 @@ def _printed(options: argparse.Namespace, pm: PeriodMatrix, report: MeshReport |
         "mesh": report.as_dict() if report else None,
     }
     return json.dumps(document, indent=1)
-
-
-def _refused(message: str) -> int:
-    print(f"igl-periods: {message}", file=sys.stderr, flush=True)
-    return 1
 
 
 if __name__ == "__main__":

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, TypeVar
 if TYPE_CHECKING:
     from mpi4py.MPI import Intracomm
 
+
 T = TypeVar("T")
 
 

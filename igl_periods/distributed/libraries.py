@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from mpi4py.MPI import Intracomm
 
+
 _MISSING = (
     "igl_periods.distributed needs mpi4py and petsc4py, and {name} cannot be imported ({error}). "
     "Run scripts/setup --distributed, or install an MPI with its compiler mpicc and then "

@@ -19,14 +19,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
-from igl_periods.delta_complex import DeltaComplex
-from igl_periods.homology import half_edge_ends
-
-Ints = NDArray[np.int64]
+from igl_periods.arrays import Ints
+from igl_periods.complexes import DeltaComplex, half_edge_ends
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,14 +10,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
-from igl_periods.delaunay import intrinsic_delaunay
-from igl_periods.delta_complex import DeltaComplex
-from igl_periods.harmonic import dirichlet_matrix
-from igl_periods.homology import cochains_and_basis
-from igl_periods.periods import PeriodMatrix
-from igl_periods.pipeline import as_complex, certified_period_matrix
-from igl_periods.rounding import allowance_for_loss, extreme_sensitivity
-from igl_periods.stages import stage
+from igl_periods.arrays import Floats
+from igl_periods.complexes import DeltaComplex, intrinsic_delaunay
+from igl_periods.harmonic import allowance_for_loss, dirichlet_matrix, extreme_sensitivity
+from igl_periods.periods import PeriodMatrix, as_complex, certified_period_matrix
+from igl_periods.run_log import stage
+from igl_periods.topology import cochains_and_basis
 
 from .collective import on_every_rank, on_root, scatter
 from .libraries import load_petsc, world
@@ -26,8 +24,6 @@ from .potentials import harmonic_potentials
 
 if TYPE_CHECKING:
     from mpi4py.MPI import Intracomm
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

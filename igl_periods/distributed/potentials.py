@@ -35,10 +35,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from igl_periods.adaptive import ToleranceWarning
-from igl_periods.delta_complex import cotan_weights
-from igl_periods.harmonic import edge_ends, laplacian, outflow
-from igl_periods.stages import logger, stage
+from igl_periods.arrays import Floats
+from igl_periods.complexes import cotan_weights, edge_ends
+from igl_periods.harmonic import laplacian, outflow
+from igl_periods.periods import ToleranceWarning
+from igl_periods.run_log import logger, stage
 
 from .collective import on_every_rank, on_root
 from .libraries import load_petsc
@@ -48,7 +49,6 @@ if TYPE_CHECKING:
     from mpi4py.MPI import Intracomm
     from petsc4py.PETSc import KSP, Mat
 
-Floats = NDArray[np.float64]
 
 _PREFIX = "igl_periods_"
 _THRESHOLD = "pc_gamg_threshold"

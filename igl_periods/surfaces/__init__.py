@@ -16,31 +16,60 @@ very high genus              ``thickened_lattice``, ``menger_sponge``, ``voxel_s
 ===========================  ======================================================================
 """
 
-from .cyclic_covers import cyclic_cover as cyclic_cover
-from .lattices import menger_sponge as menger_sponge
-from .lattices import thickened_lattice as thickened_lattice
-from .lawson import lawson_sides as lawson_sides
-from .lawson import lawson_surface as lawson_surface
-from .lawson import stereographic as stereographic
-from .lawson_periods import lawson_period_matrix as lawson_period_matrix
-from .lawson_periods import lawson_period_matrix_in as lawson_period_matrix_in
-from .lawson_unstructured import lawson_segments as lawson_segments
-from .lawson_unstructured import lawson_surface_jittered as lawson_surface_jittered
-from .lawson_unstructured import lawson_surface_poor as lawson_surface_poor
-from .lawson_unstructured import lawson_surface_voronoi as lawson_surface_voronoi
-from .regular_maps import regular_map as regular_map
-from .regular_maps import regular_map_period_matrix as regular_map_period_matrix
-from .regular_maps import regular_map_surface as regular_map_surface
-from .square_tiled import glued_rectangles as glued_rectangles
-from .square_tiled import origami as origami
-from .square_tiled import square_tiled_period_matrix as square_tiled_period_matrix
-from .square_tiled import square_tiled_surface as square_tiled_surface
-from .subdivision import subdivide as subdivide
-from .tori import flat_torus as flat_torus
-from .tori import torus_of_revolution as torus_of_revolution
-from .tori import torus_of_revolution_modulus as torus_of_revolution_modulus
-from .voxels import voxel_surface as voxel_surface
-from .wente import wente_immersion as wente_immersion
-from .wente import wente_modulus as wente_modulus
-from .wente import wente_periods as wente_periods
-from .wente import wente_torus as wente_torus
+from .square_tiled import (
+    glued_rectangles,
+    origami,
+    square_tiled_period_matrix,
+    square_tiled_surface,
+)
+from .regular_maps import regular_map, regular_map_period_matrix, regular_map_surface
+from .tori import flat_torus, torus_of_revolution, torus_of_revolution_modulus
+from .wente import wente_immersion, wente_modulus, wente_periods, wente_torus
+from .lawson.surface import lawson_sides, lawson_surface, stereographic
+from .lawson.unstructured import (
+    lawson_segments,
+    lawson_surface_jittered,
+    lawson_surface_poor,
+    lawson_surface_voronoi,
+)
+from .lawson.periods import lawson_period_matrix, lawson_period_matrix_in
+from .cyclic_covers import cyclic_cover
+from .subdivision import subdivide
+from .cube_solids import menger_sponge, thickened_lattice
+from .voxels import voxel_surface
+from .named_surfaces import catalogue
+from .identification import Identification, identify
+
+__all__ = [
+    "glued_rectangles",
+    "origami",
+    "square_tiled_period_matrix",
+    "square_tiled_surface",
+    "regular_map",
+    "regular_map_period_matrix",
+    "regular_map_surface",
+    "flat_torus",
+    "torus_of_revolution",
+    "torus_of_revolution_modulus",
+    "wente_immersion",
+    "wente_modulus",
+    "wente_periods",
+    "wente_torus",
+    "lawson_sides",
+    "lawson_surface",
+    "stereographic",
+    "lawson_segments",
+    "lawson_surface_jittered",
+    "lawson_surface_poor",
+    "lawson_surface_voronoi",
+    "lawson_period_matrix",
+    "lawson_period_matrix_in",
+    "cyclic_cover",
+    "subdivide",
+    "menger_sponge",
+    "thickened_lattice",
+    "voxel_surface",
+    "catalogue",
+    "Identification",
+    "identify",
+]

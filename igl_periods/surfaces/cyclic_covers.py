@@ -32,17 +32,14 @@ from collections.abc import Callable
 from math import gcd
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from igl_periods.delta_complex import DeltaComplex
+from igl_periods.arrays import Complexes, Floats, Ints
+from igl_periods.complexes import DeltaComplex
 from igl_periods.errors import ComplexError
-from igl_periods.homology import tree_cotree
+from igl_periods.topology import tree_cotree
 
-from .spheres import refined_sphere
-
-Complexes = NDArray[np.complex128]
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+from .sphere_meshes import refined_sphere
 
 _GRADING = 0.75
 _NEAREST_BRANCH_POINTS = 1e-4

@@ -36,18 +36,15 @@ Braden, Northover, "Bring's curve: its period matrix and the vector of Riemann c
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from igl_periods.delta_complex import DeltaComplex
+from igl_periods.arrays import Complexes, Floats, Ints
+from igl_periods.complexes import DeltaComplex
 from igl_periods.errors import ComplexError
 
+from .permutations import Permutation, composed
 from .square_tiled import square_tiled_period_matrix
 from .subdivision import subdivide
-
-Complexes = NDArray[np.complex128]
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Permutation = tuple[int, ...]
 
 # Rotation and flip, as permutations of
 #   klein: the projective line over F_7 (7 is ∞), z -> 1 - 1/z and z -> -1/z;
@@ -64,7 +61,6 @@ _GENERATORS: dict[str, tuple[Permutation, Permutation]] = {
     "bring": ((1, 2, 3, 0, 4), (0, 1, 2, 4, 3)),
     "schwarz_p": ((1, 2, 3, 0, 4, 5), (3, 1, 2, 0, 5, 4)),
 }
-
 # Imaginary part of Braden and Northover's τ_0 = 1/2 + i y, where j(τ_0) = -29³ 5 / 2⁵ and
 # j(5 τ_0) = -25 / 2.
 _BRING = 0.5 + 0.18667646246280991j
@@ -165,7 +161,7 @@ def regular_map(rotation: ArrayLike, flip: ArrayLike, n: int = 1) -> DeltaComple
     if len(r) != len(t):
         raise ComplexError(f"rotation permutes {len(r)} points and flip permutes {len(t)}.")
     identity = tuple(range(len(t)))
-    if t == identity or _product(t, t) != identity:
+    if t == identity or composed(t, t) != identity:
         raise ComplexError(
             f"the flip {t} is no involution: gluing a side to another one twice must lead back."
         )
@@ -199,10 +195,10 @@ def _darts(r: Permutation, t: Permutation) -> tuple[Ints, Ints, Ints]:
             number[x] = len(elements)
             elements.append(x)
             places.append((n_faces, side))
-            faces.append(_product(x, t))
-            x, side = _product(x, r), side + 1
+            faces.append(composed(x, t))
+            x, side = composed(x, r), side + 1
         n_faces += 1
-    glued = np.array([number[_product(x, t)] for x in elements])
+    glued = np.array([number[composed(x, t)] for x in elements])
     polygon, side_of = np.array(places).T
     return polygon, side_of, glued
 
@@ -223,11 +219,6 @@ def _fans(twin: Ints, k: int) -> tuple[Floats, Ints]:
     lengths = np.empty((twin.size, 3))
     lengths[:] = 1.0, circumradius, circumradius
     return lengths, gluing
-
-
-def _product(a: Permutation, b: Permutation) -> Permutation:
-    """(ab)(i) = a(b(i))."""
-    return tuple(a[i] for i in b)
 
 
 def _permutation(images: ArrayLike, what: str) -> Permutation:

@@ -30,16 +30,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from igl_periods.delta_complex import DeltaComplex
+from igl_periods.arrays import Complexes
+from igl_periods.complexes import DeltaComplex, components_of, squares
 from igl_periods.errors import ComplexError
-from igl_periods.gluing import components_of, squares
 
-Complexes = NDArray[np.complex128]
-Ints = NDArray[np.int64]
+from .permutations import checked_permutation
+
 Gluing = list[tuple[tuple[int, int], tuple[int, int]]]
-
 _GLUINGS: dict[str, Gluing] = {
     "omega_1": [
         ((0, 1), (1, 3)), ((1, 1), (0, 3)), ((0, 2), (2, 0)),
@@ -51,7 +50,6 @@ _GLUINGS: dict[str, Gluing] = {
     ],
     "omega_3": [((k, side), ((k + 1) % 6, side - 1)) for k in range(6) for side in (1, 3)],
 }  # fmt: skip
-
 _PERIOD_MATRICES: dict[str, Complexes] = {
     "omega_1": np.array([[5, -4], [-4, 5]]) * 1j / 3,
     "omega_2": (np.array([[-2, 1], [1, -2]]) + 1j * np.sqrt(2) * np.array([[2, -1], [-1, 2]])) / 3,
@@ -114,7 +112,7 @@ def origami(right: ArrayLike, up: ArrayLike, n: int = 1) -> DeltaComplex:
     >>> origami([1, 0, 2], [2, 1, 0]).genus
     2
     """
-    to_right, above = _permutation(right, "right"), _permutation(up, "up")
+    to_right, above = checked_permutation(right, "right"), checked_permutation(up, "up")
     if to_right.size != above.size:
         raise ComplexError(
             f"right permutes {to_right.size} squares and up permutes {above.size}: they must "
@@ -174,14 +172,3 @@ def _known(name: str) -> str:
             "Other gluings of squares: origami, DeltaComplex.from_squares."
         )
     return name
-
-
-def _permutation(images: ArrayLike, what: str) -> Ints:
-    array = np.asarray(images)
-    if array.ndim != 1 or array.size == 0 or array.dtype.kind not in "iu":
-        raise ComplexError(f"{what} must be a list of squares, not an array {array.shape}.")
-    if not np.array_equal(np.sort(array), np.arange(array.size)):
-        raise ComplexError(
-            f"{what} is no permutation of 0, …, {array.size - 1}: {array.tolist()[:12]}."
-        )
-    return array.astype(np.int64)

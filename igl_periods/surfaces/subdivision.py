@@ -12,12 +12,9 @@ functions that are linear on triangles grow finer.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from igl_periods.arrays import Floats, Ints
 from igl_periods.errors import ComplexError
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 def subdivide(lengths: Floats, twin: Ints, n: int) -> tuple[Floats, Ints]:

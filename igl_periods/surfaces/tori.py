@@ -12,14 +12,10 @@ converges to it with order 2.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from igl_periods.delta_complex import DeltaComplex
+from igl_periods.arrays import Floats, Ints
+from igl_periods.complexes import DeltaComplex, periodic_grid, squares
 from igl_periods.errors import ComplexError, MeshError
-from igl_periods.gluing import squares
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 def flat_torus(tau: complex, n: int = 4, m: int | None = None) -> DeltaComplex:
@@ -104,18 +100,6 @@ def torus_of_revolution_modulus(R: float, r: float) -> complex:
     """
     _check_radii(R, r)
     return 1j * r / np.sqrt((R - r) * (R + r))
-
-
-def periodic_grid(n: int, m: int) -> Ints:
-    """Triangulate a periodic n × m grid of vertices ``i m + j``; shape (2 n m, 3).
-
-    The triangles of a cell are (i, j), (i + 1, j), (i, j + 1) and (i + 1, j), (i + 1, j + 1),
-    (i, j + 1).
-    """
-    vertex = np.arange(n * m).reshape(n, m)
-    right, up = np.roll(vertex, -1, 0), np.roll(vertex, -1, 1)
-    across = np.roll(right, -1, 1)
-    return np.stack([vertex, right, up, right, across, up], axis=-1).reshape(-1, 3)
 
 
 def _check_radii(R: float, r: float) -> None:

@@ -25,14 +25,11 @@ import itertools
 from functools import cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.ndimage import label
 
+from igl_periods.arrays import Bools, Floats, Ints
 from igl_periods.errors import MeshError
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Bools = NDArray[np.bool_]
 
 _LARGEST_JITTER = 1 / 6
 

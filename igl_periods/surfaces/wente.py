@@ -35,16 +35,13 @@ from functools import lru_cache
 from math import gcd
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipj, ellipk, elliprd, elliprf, elliprj
 
+from igl_periods.arrays import Floats, Ints
+from igl_periods.complexes import periodic_grid
 from igl_periods.errors import MeshError
-
-from .tori import periodic_grid
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 def wente_torus(N: int, lobes: int = 3, winding: int = 1) -> tuple[Floats, Ints]:

@@ -1,0 +1,111 @@
+r"""Surfaces glued from Euclidean triangles, and the moves that carry cochains.
+
+A surface is a *Δ-complex with edge lengths*: triangles whose sides are glued in pairs, each pair of
+one length.  Multi-edges, loops and faces glued to themselves are allowed, since an intrinsic
+Delaunay triangulation has them; so **an edge is an index**, never a pair of vertices.
+
+* **Side s of face f lies opposite its corner s** and runs from corner s + 1 to corner s + 2 (mod
+  3). ``lengths[f, s]`` is its length; ``twin[f, s] = 3 f' + s'`` the half-edge glued to it,
+  reversed, or −1 on the boundary.
+* The weight of an edge is :math:`\rho(e) = \tfrac12 (\cot\alpha + \cot\beta)`, α and β the angles
+  opposite it.  :math:`\sum_e \rho(e)\, (f(y) - f(x))^2` is the Dirichlet energy of the piecewise
+  linear function f, on the surface itself.
+* A *cochain* is a number for every edge, in its direction; it is *closed* if the signed sum around
+  every face is 0.  Closed integer cochains are the marking: the classes of cohomology.
+
+Every geometric step has one shape, **(K, cochains) → (K′, cochains′)**: flips, midpoints,
+barycentres, the double.  The surface stays what it is, and the classes go along.
+
+========================  =====================================================================
+``triangles``             areas, angles and cotangents from three lengths; mollification
+``checked_arrays``        positions, faces and lengths as callers hand them over
+``gluings``               which side is glued to which: twins, vertices, components
+``glued_squares``         unit squares glued along sides, and grids of them
+``delta_complex``         the complex itself
+``surface_checks``        closed, oriented, connected: what a period matrix needs
+``half_edges``            both directions of every edge
+``weights``               cotangent and extrinsic weights, cone angles
+``cochains``              closed cochains, their values along walks and sides
+``marked_complex``        a complex with the cochains that it carries
+``delaunay``              intrinsic Delaunay flips
+``midpoint_subdivision``  every face in four, or in n²
+``barycentre_insertion``  some faces in three
+``doubling``              the complex double
+========================  =====================================================================
+
+References
+----------
+Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 2.
+Bobenko, Springborn, "A discrete Laplace–Beltrami operator for simplicial surfaces" (2007).
+"""
+
+from .triangles import angles, cotangents, double_areas, length_sensitivity
+from .checked_arrays import (
+    check_equal_when_glued,
+    check_finite,
+    checked_array,
+    checked_corners,
+    checked_positions,
+)
+from .gluings import (
+    components_of,
+    corner_vertices,
+    face_components,
+    index_type,
+    next_corner,
+    orientable_faces,
+    reversing_sides,
+)
+from .glued_squares import periodic_grid, squares
+from .half_edges import edge_ends, forward_half_edges, half_edge_ends, walk_vertices
+from .delta_complex import DeltaComplex
+from .surface_checks import check_closed_and_oriented, check_connected, check_surface, is_orientable
+from .weights import cone_angles, cotan_weights, extrinsic_weights
+from .cochains import along_sides, primitive
+from .delaunay import cocircularity_allowance, delaunay_flips, intrinsic_delaunay, transport
+from .midpoint_subdivision import split
+from .barycentre_insertion import insert_barycentres
+from .doubling import double, involution
+
+__all__ = [
+    "angles",
+    "cotangents",
+    "double_areas",
+    "length_sensitivity",
+    "check_equal_when_glued",
+    "check_finite",
+    "checked_array",
+    "checked_corners",
+    "checked_positions",
+    "components_of",
+    "corner_vertices",
+    "index_type",
+    "next_corner",
+    "periodic_grid",
+    "squares",
+    "face_components",
+    "orientable_faces",
+    "reversing_sides",
+    "edge_ends",
+    "forward_half_edges",
+    "half_edge_ends",
+    "walk_vertices",
+    "check_closed_and_oriented",
+    "check_connected",
+    "check_surface",
+    "is_orientable",
+    "DeltaComplex",
+    "cone_angles",
+    "cotan_weights",
+    "extrinsic_weights",
+    "along_sides",
+    "primitive",
+    "cocircularity_allowance",
+    "delaunay_flips",
+    "intrinsic_delaunay",
+    "transport",
+    "split",
+    "insert_barycentres",
+    "double",
+    "involution",
+]

@@ -1,0 +1,137 @@
+r"""Some faces divided into three, by a vertex at the barycentre.
+
+The surface is flat there, and no point of it moves.  A closed cochain passes to the new
+triangulation without a choice but for its values on the new edges: the edge from the new vertex to
+corner 0 gets the value 0, and closedness gives the others.
+
+Delaunay flips are to follow.  On a region of equilateral triangles the two together are
+√3-subdivision (Kobbelt 2000).
+
+.. code-block:: text
+
+            2
+           /|\                  Child s has the corners of its parent, but for corner s, which is
+          / | \                 the new vertex; so its side s is that of the parent.  Child 0 keeps
+         /  |  \                the index of the parent.
+        / 1 * 0 \
+       / .     . \
+      0-----------1
+            2
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_array, hstack
+
+from igl_periods.arrays import Floats, Ints
+
+from .cochains import check_cochains
+from .delta_complex import DeltaComplex
+from .triangles import length_sensitivity
+
+_SIDE = np.arange(3)
+_AFTER, _BEFORE = (_SIDE + 1) % 3, (_SIDE + 2) % 3
+
+
+def insert_barycentres(
+    K: DeltaComplex, cochains: csr_array, faces: Ints
+) -> tuple[DeltaComplex, csr_array]:
+    """Divide faces into three at their barycentres.
+
+    Parameters
+    ----------
+    K : DeltaComplex
+        Any complex.
+    cochains : (k, n_edges) sparse int
+        Closed.
+    faces : (r,) int
+        Without repetition.
+
+    Returns
+    -------
+    K : DeltaComplex
+        The same surface.  Old vertices and edges keep their index; the barycentre of ``faces[i]``
+        is vertex ``n_vertices + i``, with label -1, and the edges from it to the corners 0, 1, 2
+        are ``n_edges + 3 i`` … ``n_edges + 3 i + 2``.  It has no positions.
+    cochains : (k, n_edges + 3 r) sparse int
+        The same cohomology classes.
+
+    Raises
+    ------
+    ComplexError
+        If ``cochains`` does not have one column an edge.
+    """
+    check_cochains(K, cochains)
+    r, m = len(faces), K.n_faces
+    child = np.stack([faces, m + np.arange(r), m + r + np.arange(r)], axis=1)
+    moved = np.arange(K.twin.size)
+    moved.reshape(-1, 3)[faces] = 3 * child + _SIDE
+    twin = np.where(K.twin >= 0, moved[K.twin], -1)
+    distance = _barycentre_distances(K.lengths[faces])
+    new_edge = K.n_edges + np.arange(3 * r).reshape(-1, 3)
+    new_vertex = np.broadcast_to(K.n_vertices + np.arange(r)[:, None], (r, 3))
+    own = K.corner_vertex[faces]
+
+    # Side s + 1 of child s runs from corner s + 2 to the new vertex, and is glued to side s of
+    # child s + 1; side s + 2 runs from the new vertex to corner s + 1.
+    def replaced(array: NDArray[Any], at: Any, after: Any, before: Any) -> NDArray[Any]:
+        values = np.empty((r, 3, 3), dtype=array.dtype)
+        values[:, _SIDE, _SIDE], values[:, _SIDE, _AFTER], values[:, _SIDE, _BEFORE] = (
+            at,
+            after,
+            before,
+        )
+        whole = np.concatenate([array, values[:, 1], values[:, 2]])
+        whole[faces] = values[:, 0]
+        return whole
+
+    finer = replace(
+        K,
+        lengths=replaced(K.lengths, K.lengths[faces], distance[:, _BEFORE], distance[:, _AFTER]),
+        twin=replaced(
+            twin, twin[faces], 3 * child[:, _AFTER] + _SIDE, 3 * child[:, _BEFORE] + _SIDE
+        ),
+        edge=replaced(K.edge, K.edge[faces], new_edge[:, _BEFORE], new_edge[:, _AFTER]),
+        sign=replaced(K.sign, K.sign[faces], -1, 1),
+        corner_vertex=replaced(K.corner_vertex, new_vertex, own[:, _AFTER], own[:, _BEFORE]),
+        n_vertices=K.n_vertices + r,
+        n_edges=K.n_edges + 3 * r,
+        labels=np.concatenate([K.labels, np.full(r, -1)]),
+        positions=None,
+    )
+    before = np.zeros(m) if K.distortion is None else K.distortion
+    distortion = np.concatenate([before, before[faces], before[faces]])
+    distortion[child] += length_sensitivity(finer.lengths[child.ravel()]).reshape(-1, 3)
+    finer = replace(finer, distortion=distortion)
+    return finer, csr_array(hstack([cochains, _on_new_edges(K, cochains, faces)], format="csr"))
+
+
+def _barycentre_distances(lengths: Floats) -> Floats:
+    """Distances of the barycentre from the corners; (r, 3).
+
+    Two thirds of the medians, 9 d² = 2 b² + 2 c² − a² = (b − c)² + (b + c − a)(b + c + a) for the
+    corner opposite side a; differences of lengths are taken first.
+    """
+    distance = np.empty_like(lengths)
+    for s in range(3):
+        a, one, other = lengths[:, s], lengths[:, s - 2], lengths[:, s - 1]
+        b, c = np.maximum(one, other), np.minimum(one, other)
+        distance[:, s] = np.sqrt((b - c) ** 2 + (c - (a - b)) * (a + b + c)) / 3.0
+    return distance
+
+
+def _on_new_edges(K: DeltaComplex, cochains: csr_array, faces: Ints) -> csr_array:
+    """Values from the barycentres to the corners 0, 1, 2, the first of them 0; (k, 3 r)."""
+    r = len(faces)
+    columns = 3 * np.arange(r)
+    values = np.concatenate([K.sign[faces, 2], -K.sign[faces, 1]]).astype(np.int64)
+    rows = np.concatenate([K.edge[faces, 2], K.edge[faces, 1]])
+    step = csr_array(
+        (values, (rows, np.concatenate([columns + 1, columns + 2]))), shape=(K.n_edges, 3 * r)
+    )
+    return csr_array(cochains @ step)

@@ -1,0 +1,361 @@
+r"""Intrinsic Delaunay flips that carry cochains along.
+
+An edge is Delaunay iff the angles α and β opposite it satisfy α + β ≤ π, that is
+cot α + cot β ≥ 0, that is ρ(e) ≥ 0.  If it is not, the two triangles at it form a strictly convex
+quadrilateral when unfolded, and the edge can be replaced by the other diagonal, which is Delaunay
+then.  Flipping while there is such an edge ends, with an intrinsic Delaunay triangulation of the
+same surface on the same vertices (Bobenko, Springborn 2007).  Among all triangulations of these
+vertices it has the least Dirichlet energy (Rippa 1990), hence the sharpest certificate.
+
+The new diagonal joins two corners, so that a closed cochain takes on it the sum of its values on
+two sides of the quadrilateral.  In this way integer cochains, and with them the marking of the
+period matrix, pass exactly to the flipped triangulation, whatever multi-edges and loops it gets.
+
+Flips of edges that share no face commute.  Each round flips an independent set of bad edges at
+once, chosen at random but always the same.
+
+References
+----------
+Fisher, Springborn, Schröder, Bobenko, "An algorithm for the construction of intrinsic Delaunay
+triangulations with applications to digital geometry processing" (2007).
+Bobenko, Springborn, "A discrete Laplace–Beltrami operator for simplicial surfaces" (2007).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_array, vstack
+
+from igl_periods.arrays import Floats, Ints
+from igl_periods.errors import ComplexError
+from igl_periods.run_log import progress
+
+from .delta_complex import DeltaComplex
+from .gluings import next_corner
+from .half_edges import forward_half_edges
+from .triangles import cotangents, double_areas, is_strict, length_sensitivity
+
+# Edges this close to cocircular are left alone: flipped by rounding, they would flip for ever.
+_TOLERANCE = 1e-12
+_EPS = float(np.finfo(np.float64).eps)
+_ULPS = 8 * _EPS
+_MOST_ROUNDS = 100_000  # and as many as there are edges
+_COCHAINS_AT_ONCE = 32
+_EDGES_AT_ONCE = 8_192
+
+
+@dataclass(frozen=True, eq=False)
+class Flips:
+    """One round of flips: the edges flipped, and the cochain on each in terms of its sides.
+
+    ``c[edge] = first_sign c[first] + second_sign c[second]`` for every closed cochain c.  Seen
+    along the old edge from A to B, with p on its left and q on its right, the sides are
+    ``first`` A q, ``second`` p A, ``third`` B p and ``fourth`` q B.
+    """
+
+    edge: Ints
+    first: Ints
+    first_sign: NDArray[np.int8]
+    second: Ints
+    second_sign: NDArray[np.int8]
+    third: Ints
+    fourth: Ints
+
+    @classmethod
+    def union(cls, portions: list[Flips]) -> Flips:
+        """Flips that share no face, as one round."""
+        columns = zip(*(vars(flips).values() for flips in portions))
+        return cls(*(np.concatenate(column) for column in columns))
+
+
+def intrinsic_delaunay(K: DeltaComplex, cochains: csr_array) -> tuple[DeltaComplex, csr_array]:
+    """Flip edges until all are Delaunay, and carry closed cochains along.
+
+    Parameters
+    ----------
+    K : DeltaComplex
+        Closed and oriented.
+    cochains : (k, n_edges) sparse int
+        Closed.
+
+    Returns
+    -------
+    K : DeltaComplex
+        The same surface and vertices; ``K`` itself if every edge is Delaunay.
+    cochains : (k, n_edges) sparse int
+        The same cohomology classes.  Edges that are not flipped keep their index, direction and
+        values; a flipped edge passes its index on to the new diagonal.
+
+    Raises
+    ------
+    ComplexError
+        If flipping does not end, which only rounding on extreme triangles could cause.
+    """
+    flipped, rounds = delaunay_flips(K)
+    return flipped, transport(cochains, rounds)
+
+
+def delaunay_flips(K: DeltaComplex) -> tuple[DeltaComplex, list[Flips]]:
+    """The intrinsic Delaunay complex, and the rounds of flips that lead to it."""
+    cot = cotangents(K.lengths)
+    bad = _is_bad(cot.ravel(), cot.ravel()[K.twin.ravel()])
+    suspects = _distinct(K.n_edges, K.edge.ravel()[bad])
+    if suspects.size == 0:
+        return K, []
+    mesh = _FlippableMesh.of(K, cot)
+    order = np.random.default_rng(0)
+    rounds: list[Flips] = []
+    while suspects.size:
+        if len(rounds) == _MOST_ROUNDS + K.n_edges:
+            raise ComplexError(
+                f"Delaunay flips did not end in {len(rounds)} rounds: rounding decides about "
+                "extreme triangles. Remesh them, or compute without flips (delaunay=False)."
+            )
+        progress("rounds of flips", len(rounds))
+        chosen, waiting = mesh.independent(order.permutation(suspects))
+        # Neighbours lie close together in memory when edges are taken in their order, and in
+        # portions that the cache holds.
+        chosen = _distinct(K.n_edges, chosen)
+        portions = [
+            mesh.flip(chosen[start : start + _EDGES_AT_ONCE])
+            for start in range(0, chosen.size, _EDGES_AT_ONCE)
+        ]
+        rounds.append(Flips.union([flips for flips, _ in portions]))
+        suspects = mesh.bad_edges(_distinct(K.n_edges, waiting, *(near for _, near in portions)))
+    flipped = replace(
+        K,
+        lengths=mesh.lengths.reshape(-1, 3),
+        twin=mesh.twin.reshape(-1, 3),
+        edge=mesh.edge.reshape(-1, 3),
+        sign=mesh.sign.reshape(-1, 3),
+        corner_vertex=mesh.corner_vertex.reshape(-1, 3),
+        distortion=mesh.distortion,
+    )
+    return flipped, rounds
+
+
+def transport(cochains: csr_array, rounds: list[Flips]) -> csr_array:
+    """Values of closed cochains after the flips; (k, n_edges) sparse int."""
+    if not rounds:
+        return cochains
+    portions = [
+        _carried(cochains[start : start + _COCHAINS_AT_ONCE], rounds)
+        for start in range(0, max(cochains.shape[0], 1), _COCHAINS_AT_ONCE)
+    ]
+    return csr_array(vstack(portions, format="csr"))
+
+
+def _carried(cochains: csr_array, rounds: list[Flips]) -> csr_array:
+    """A few cochains after the flips, by a table of their values on the edges they have met."""
+    by_edge = cochains.T.tocsr()
+    met = np.flatnonzero(np.diff(by_edge.indptr))
+    # Row 0 is for all edges on which the cochains are 0.
+    values = np.zeros((met.size + 1, cochains.shape[0]), dtype=cochains.dtype)
+    values[1:] = by_edge[met].toarray()
+    row = np.zeros(cochains.shape[1], dtype=np.int64)
+    row[met] = np.arange(1, met.size + 1)
+    for flips in rounds:
+        first, second = row[flips.first], row[flips.second]
+        near = np.flatnonzero((first > 0) | (second > 0) | (row[flips.edge] > 0))
+        sums = (
+            flips.first_sign[near, None] * values[first[near]]
+            + flips.second_sign[near, None] * values[second[near]]
+        )
+        edge = flips.edge[near]
+        known = row[edge] > 0
+        values[row[edge[known]]] = sums[known]
+        row[edge[~known]] = np.arange(len(values), len(values) + np.count_nonzero(~known))
+        values = np.concatenate([values, sums[~known]])
+    met = np.flatnonzero(row)
+    found = csr_array(values[row[met]].T).tocoo()
+    return csr_array((found.data, (found.row, met[found.col])), shape=cochains.shape)
+
+
+@dataclass(eq=False)
+class _FlippableMesh:
+    """The arrays of a complex, flat by half-edge, while edges are being flipped."""
+
+    lengths: Floats
+    twin: Ints
+    edge: Ints
+    sign: NDArray[np.int8]
+    corner_vertex: Ints
+    cotangents: Floats
+    half_edge: Ints  # of each edge, the half-edge that runs with it
+    distortion: Floats  # of each face, in units of the machine epsilon
+    slot: Ints  # scratch: where a half-edge moves to; the identity between rounds
+    owner: Ints  # scratch: which edge claims a face
+
+    @classmethod
+    def of(cls, K: DeltaComplex, cot: Floats) -> _FlippableMesh:
+        return cls(
+            lengths=K.lengths.flatten(),
+            twin=K.twin.flatten(),
+            edge=K.edge.flatten(),
+            sign=K.sign.flatten(),
+            corner_vertex=K.corner_vertex.flatten(),
+            cotangents=cot.ravel(),
+            half_edge=forward_half_edges(K),
+            distortion=np.zeros(K.n_faces) if K.distortion is None else K.distortion.copy(),
+            slot=np.arange(K.twin.size),
+            owner=np.empty(K.n_faces, dtype=np.int64),
+        )
+
+    def bad_edges(self, edges: Ints) -> Ints:
+        """Those of the edges that are not Delaunay."""
+        h = self.half_edge[edges]
+        t = self.twin[h]
+        cot_here, cot_there = self.cotangents[h], self.cotangents[t]
+        bad = _is_bad(cot_here, cot_there)
+        # Angles that earlier flips have blurred decide nothing; or flips might never end.
+        blur_here = self.distortion[h[bad] // 3] * (1.0 + np.abs(cot_here[bad]))
+        blur_there = self.distortion[t[bad] // 3] * (1.0 + np.abs(cot_there[bad]))
+        bad[bad] = cot_here[bad] + cot_there[bad] < -_EPS * (blur_here + blur_there)
+        return edges[bad]
+
+    def independent(self, edges: Ints) -> tuple[Ints, Ints]:
+        """Split edges into some that share no face, and the rest."""
+        h = self.half_edge[edges]
+        faces = np.stack([h // 3, self.twin[h] // 3], axis=1)
+        rank = np.arange(edges.size)
+        # The last claim on a face holds, so the last edge always keeps both of its faces.
+        self.owner[faces.ravel()] = np.repeat(rank, 2)
+        free = (self.owner[faces] == rank[:, None]).all(axis=1)
+        return edges[free], edges[~free]
+
+    def flip(self, edges: Ints) -> tuple[Flips, Ints]:
+        r"""Flip edges that share no face; also returns the edges around them.
+
+        Seen from the half-edge h from A to B, with p opposite in its face and q opposite in the
+        other face, the faces p A B and q B A become p A q and q B p::
+
+                   p                        p
+                 /   \                    / | \
+               A —h—> B        →         A  |  B
+                 \   /                    \ | /
+                   q                        q
+        """
+        edges, h, diagonal, ulps = self._flippable(edges)
+        t = self.twin[h]
+        bp, pa, aq, qb = next_corner(h, 1), next_corner(h, 2), next_corner(t, 1), next_corner(t, 2)
+        here, there = 3 * (h // 3), 3 * (t // 3)
+        p, a, q, b = (self.corner_vertex[corner] for corner in (h, bp, t, aq))
+        old = np.concatenate([aq, pa, bp, qb])
+        new = np.concatenate([here, here + 2, there, there + 2])
+        sides = self.edge[[aq, pa, bp, qb]]
+        flips = Flips(edges, sides[0], -self.sign[aq], sides[1], -self.sign[pa], sides[2], sides[3])
+
+        self._move(old, new)
+        self._place_diagonal(edges, here + 1, there + 1, diagonal)
+        for corner, vertex in zip(range(3), (p, a, q), strict=True):
+            self.corner_vertex[here + corner] = vertex
+        for corner, vertex in zip(range(3), (q, b, p), strict=True):
+            self.corner_vertex[there + corner] = vertex
+        faces = np.concatenate([here, there])[:, None] + np.arange(3)
+        self.cotangents[faces] = cotangents(self.lengths[faces])
+        self._distort(here // 3, there // 3, ulps)
+        return flips, self.edge[new]
+
+    def _distort(self, here: Ints, there: Ints, ulps: Floats) -> None:
+        """Both new faces inherit what was wrong with the old ones, and the rounded diagonal."""
+        before = np.maximum(self.distortion[here], self.distortion[there])
+        for faces in (here, there):
+            lengths = self.lengths.reshape(-1, 3)[faces]
+            self.distortion[faces] = before + ulps * length_sensitivity(lengths)
+
+    def _flippable(self, edges: Ints) -> tuple[Ints, Ints, Floats, Floats]:
+        """The edges that get better, their half-edges, new diagonals, and the rounding of those.
+
+        Rounding can make a new triangle degenerate, or no better than the old one; then the edge
+        stays as it is.
+        """
+        h = self.half_edge[edges]
+        t = self.twin[h]
+        diagonal, ulps = self._diagonal(h, t)
+        good = np.ones(edges.size, dtype=bool)
+        after = np.zeros(edges.size)
+        for one, other in (
+            (next_corner(h, 2), next_corner(t, 1)),
+            (next_corner(h, 1), next_corner(t, 2)),
+        ):
+            triangle = np.stack([diagonal, self.lengths[one], self.lengths[other]], axis=1)
+            good &= is_strict(triangle)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                after += cotangents(triangle)[:, 0]
+        good &= after > self.cotangents[h] + self.cotangents[t]
+        return edges[good], h[good], diagonal[good], ulps[good]
+
+    def _diagonal(self, h: Ints, t: Ints) -> tuple[Floats, Floats]:
+        """Distance of p and q in the plane of both faces, and its error in ulps, about."""
+        base = self.lengths[h]
+        pa, pb = self.lengths[next_corner(h, 2)], self.lengths[next_corner(h, 1)]
+        qa, qb = self.lengths[next_corner(t, 1)], self.lengths[next_corner(t, 2)]
+        height = (
+            double_areas(np.stack([base, pa, pb], 1)) + double_areas(np.stack([base, qa, qb], 1))
+        ) / base
+        # Feet of the heights, measured from the nearer end of the base: that keeps digits where
+        # p and q lie close to it.
+        from_a = _foot(base, pa, pb) - _foot(base, qa, qb)
+        from_b = _foot(base, qb, qa) - _foot(base, pb, pa)
+        near_a = pa + qa < pb + qb
+        along = np.where(near_a, from_a, from_b)
+        diagonal = np.hypot(along, height)
+        # The feet are as long as the nearer sides at most, and their difference can cancel.
+        return diagonal, 1.0 + np.where(near_a, pa + qa, pb + qb) / diagonal
+
+    def _move(self, old: Ints, new: Ints) -> None:
+        """Move half-edges to new places, with all that belongs to them."""
+        self.slot[old] = new
+        twin = self.slot[self.twin[old]]
+        self.slot[old] = old
+        self.lengths[new], self.sign[new] = self.lengths[old], self.sign[old]
+        self.edge[new] = self.edge[old]
+        self.twin[new] = twin
+        self.twin[twin] = new
+        forward = self.sign[new] > 0
+        self.half_edge[self.edge[new[forward]]] = new[forward]
+
+    def _place_diagonal(self, edges: Ints, h: Ints, t: Ints, length: Floats) -> None:
+        self.lengths[h] = self.lengths[t] = length
+        self.edge[h] = self.edge[t] = edges
+        self.sign[h], self.sign[t] = 1, -1
+        self.twin[h], self.twin[t] = t, h
+        self.half_edge[edges] = h
+
+
+def _distinct(n: int, *indices: Ints) -> Ints:
+    """The indices below n that occur, ascending."""
+    occurs = np.zeros(n, dtype=bool)
+    for some in indices:
+        occurs[some] = True
+    return np.flatnonzero(occurs)
+
+
+def _is_bad(cot_here: Floats, cot_there: Floats) -> NDArray[np.bool_]:
+    """Whether an edge with these opposite angles is not Delaunay, beyond rounding.
+
+    An edge with the same face on both sides never is: its two angles are of one triangle.
+    """
+    total = cot_here + cot_there
+    bad = total < -_TOLERANCE
+    bad[bad] = total[bad] < -cocircularity_allowance(np.abs(cot_here[bad]) + np.abs(cot_there[bad]))
+    return bad
+
+
+def cocircularity_allowance(size: Floats) -> Floats:
+    """How far cot α + cot β may be from 0 by rounding, where four vertices lie on one circle.
+
+    Parameters
+    ----------
+    size : array of float
+        The sum of the absolute values of both cotangents.
+    """
+    return _TOLERANCE + _ULPS * size
+
+
+def _foot(base: Floats, near: Floats, far: Floats) -> Floats:
+    """Distance along the base from its near end to the foot of the height."""
+    return 0.5 * (base + (near - far) * ((near + far) / base))

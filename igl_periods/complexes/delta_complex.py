@@ -1,0 +1,361 @@
+r"""Polyhedral surfaces as Δ-complexes with edge lengths.
+
+A polyhedral surface is a set of Euclidean triangles glued along sides of equal length.  The
+gluing need not be a simplicial complex: two triangles may share two sides, a side may join a
+vertex to itself, a triangle may be glued to itself.  Intrinsic Delaunay triangulations of real
+meshes contain all of these, and a square-tiled surface may have a single vertex.  Therefore an
+edge is an *index* here, never a pair of vertices.
+
+Side ``s`` of face ``f`` lies opposite corner ``s`` and runs from corner ``s + 1`` to corner
+``s + 2`` (mod 3), which is libigl's order of the columns of ``igl.edge_lengths``.  The half-edge
+``h = 3 f + s`` is that side seen from that face.  An edge runs the way of its first half-edge;
+``sign`` is +1 on the half-edges that run with their edge, -1 on those that run against it.
+Across an edge of an oriented surface the two signs are opposite; where they agree, the gluing
+reverses the orientation.
+
+A 1-cochain ``c`` is a number per edge.  Its value along side ``s`` of face ``f`` is
+``sign[f, s] * c[edge[f, s]]``, and it is closed iff the three values of every face add up to 0.
+
+The weight of an edge is the paper's ratio ρ(e): the distance of the circumcentres of the two
+neighbouring triangles over the length of the edge.  Measured on the surface itself it is
+
+.. math:: \rho(e) = \tfrac12 (\cot\alpha + \cot\beta),
+
+α and β the angles opposite the edge; measured in the ambient space it is the *extrinsic* weight.
+
+References
+----------
+Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 2.
+Pinkall, Polthier, "Computing discrete minimal surfaces and their conjugates" (1993).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+
+import igl
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from igl_periods.arrays import Floats, Ints
+from igl_periods.errors import MeshError
+
+from .checked_arrays import (
+    check_equal_when_glued,
+    check_finite,
+    check_scale,
+    checked_faces,
+    checked_lengths,
+    checked_positions,
+)
+from .glued_squares import squares
+from .gluings import (
+    checked_same,
+    checked_twin,
+    corner_vertices,
+    face_components,
+    fans_are_whole,
+    first_half,
+    reversing_sides,
+    twins_of_faces,
+)
+from .surface_checks import check_surface
+from .triangles import mollify
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class DeltaComplex:
+    """Euclidean triangles glued along their sides.
+
+    Build one with :meth:`from_mesh`, :meth:`from_lengths`, :meth:`from_gluing` or
+    :meth:`from_squares`, which check every invariant; the plain constructor checks nothing.
+    A complex may have a boundary or disagreeing orientations; :func:`check_surface` refuses
+    those, as everything that computes a period matrix does.
+
+    Attributes
+    ----------
+    lengths : (m, 3) float
+        Length of each side; equal on the two halves of an edge.
+    twin : (m, 3) int
+        The half-edge ``3 f' + s'`` glued to side ``s`` of face ``f``, or -1 on a boundary.
+    edge : (m, 3) int
+        Index of the edge of each side.
+    sign : (m, 3) int8
+        +1 where the side runs with its edge, -1 where it runs against it.
+    corner_vertex : (m, 3) int
+        Index of the vertex at each corner.
+    n_vertices, n_edges : int
+        Numbers of vertices and edges.
+    labels : (n_vertices,) int
+        Row of each vertex in the ``V`` the complex was made from (rows that no face uses are no
+        vertices); ``0, 1, 2, …`` where there was no ``V``.
+    positions : (n_vertices, d) float or None
+        Coordinates of the vertices, where the complex comes from a mesh.
+    mollification : float
+        Length that was added to every side to make all triangle inequalities strict.
+    distortion : (m,) float or None
+        How much rounding may have changed the metric of each face since the complex was given,
+        relative to it and in units of the machine epsilon; None where nothing was changed.
+    """
+
+    lengths: Floats
+    twin: Ints
+    edge: Ints
+    sign: NDArray[np.int8]
+    corner_vertex: Ints
+    n_vertices: int
+    n_edges: int
+    labels: Ints
+    positions: Floats | None = None
+    mollification: float = 0.0
+    distortion: Floats | None = None
+
+    def __post_init__(self) -> None:
+        for array in (self.lengths, self.twin, self.edge, self.sign, self.corner_vertex):
+            array.flags.writeable = False
+
+    def __repr__(self) -> str:
+        return (
+            f"DeltaComplex({self.n_vertices} vertices, {self.n_edges} edges, {self.n_faces} faces)"
+        )
+
+    @classmethod
+    def from_mesh(cls, V: ArrayLike, F: ArrayLike) -> DeltaComplex:
+        """Make the polyhedral surface of a triangle mesh.
+
+        Parameters
+        ----------
+        V : (n, d) array-like
+            Vertex positions in R^d, d ≥ 2.
+        F : (m, 3) array-like of int
+            Corners of each triangle, as rows of ``V``.  Two faces are glued where they share two
+            corners.
+
+        Raises
+        ------
+        MeshError
+            If the arrays have a wrong shape or type, coordinates are not finite, an index is out
+            of range, a face repeats a vertex, an edge has more than two faces, or the faces at a
+            vertex form more than one fan.
+        ComplexError
+            If a triangle is degenerate beyond what mollification mends.
+        """
+        positions = checked_positions(V)
+        faces = checked_faces(F, len(positions))
+        check_finite(positions, faces)
+        lengths = igl.edge_lengths(positions, faces)
+        return _from_simplicial(lengths, faces, positions)
+
+    @classmethod
+    def from_lengths(cls, lengths: ArrayLike, F: ArrayLike) -> DeltaComplex:
+        """Make a surface from a simplicial complex and the lengths of its sides.
+
+        Parameters
+        ----------
+        lengths : (m, 3) array-like
+            ``lengths[f, s]`` is the length of the side of face ``f`` opposite corner ``s``
+            (as ``igl.edge_lengths`` returns it).
+        F : (m, 3) array-like of int
+            Corners of each triangle.  Two faces are glued where they share two corners.
+
+        Raises
+        ------
+        MeshError
+            If the faces form no surface, as in :meth:`from_mesh`.
+        ComplexError
+            If lengths are not positive and finite, differ by more than 1e-9 (relative) on glued
+            sides, or miss a triangle inequality beyond what mollification mends.
+        """
+        faces = checked_faces(F, None)
+        return _from_simplicial(checked_lengths(lengths, len(faces)), faces, None)
+
+    @classmethod
+    def from_gluing(
+        cls, lengths: ArrayLike, twin: ArrayLike, same: ArrayLike | None = None
+    ) -> DeltaComplex:
+        """Make a surface from triangles and the gluing of their sides.
+
+        Parameters
+        ----------
+        lengths : (m, 3) array-like
+            Side lengths.
+        twin : (m, 3) array-like of int
+            ``twin[f, s] = 3 f' + s'`` glues side ``s`` of ``f`` to side ``s'`` of ``f'``, running
+            in opposite directions; -1 leaves a side free.
+        same : (m, 3) array-like of bool, optional
+            Sides that are glued running in the same direction instead, so that the orientations
+            of the two faces disagree.
+
+        Raises
+        ------
+        ComplexError
+            If ``twin`` is not an involution without fixed points, ``same`` differs on glued
+            sides, lengths are not positive and finite, differ by more than 1e-9 (relative) on
+            glued sides, or miss a triangle inequality beyond what mollification mends.
+        """
+        glued = checked_twin(twin)
+        alike = checked_same(np.zeros(glued.shape, dtype=bool) if same is None else same, glued)
+        return _assemble(checked_lengths(lengths, len(glued)), glued, alike)
+
+    @classmethod
+    def from_squares(cls, gluing: Iterable[Sequence[Sequence[int]]], n: int = 1) -> DeltaComplex:
+        """Glue unit squares, each divided into n × n squares of two right triangles.
+
+        The weights are those of the square lattice: 1 on sides, 0 on diagonals.
+
+        Parameters
+        ----------
+        gluing : iterable of ((square, side), (square, side))
+            Pairs of glued sides.  The sides of a square are 0 bottom, 1 right, 2 top, 3 left,
+            counterclockwise; glued sides run in opposite directions.
+        n : int
+
+        Raises
+        ------
+        ComplexError
+            If a side does not exist or is not glued exactly once, to another side, or ``n < 1``.
+
+        Examples
+        --------
+        >>> torus = DeltaComplex.from_squares([((0, 0), (0, 2)), ((0, 1), (0, 3))], n=2)
+        >>> torus.n_vertices, torus.n_edges, torus.n_faces, torus.genus
+        (4, 12, 8, 1)
+        """
+        lengths, twin = squares(gluing, n)
+        return _assemble(lengths, twin, np.zeros(twin.shape, dtype=bool))
+
+    @property
+    def n_faces(self) -> int:
+        """Number of triangles."""
+        return len(self.lengths)
+
+    @property
+    def euler_characteristic(self) -> int:
+        """V − E + F."""
+        return self.n_vertices - self.n_edges + self.n_faces
+
+    @property
+    def n_boundary_edges(self) -> int:
+        """Number of sides that are glued to nothing."""
+        return int(np.count_nonzero(self.twin < 0))
+
+    @property
+    def n_reversing_edges(self) -> int:
+        """Number of edges across which the orientations of the two faces disagree."""
+        return int(np.count_nonzero(reversing_sides(self.twin, self.sign))) // 2
+
+    @property
+    def genus(self) -> int:
+        """Genus of a closed, oriented, connected complex (others raise, :func:`check_surface`)."""
+        check_surface(self)
+        return (2 - self.euler_characteristic) // 2
+
+    def components(self) -> list[DeltaComplex]:
+        """The connected components, in the order of their first faces."""
+        n, label = face_components(self.twin)
+        if n == 1:
+            return [self]
+        # Sorted once: with a thousand components, a mask of all faces for each would take seconds.
+        faces = np.argsort(label, kind="stable")
+        sizes = np.bincount(label)
+        starts = np.cumsum(sizes) - sizes
+        new_face = np.empty(faces.size, dtype=np.int64)
+        new_face[faces] = np.arange(faces.size) - np.repeat(starts, sizes)
+        parts = sorted(np.split(faces, starts[1:]), key=lambda part: int(part[0]))
+        return [_restricted(self, part, new_face) for part in parts]
+
+
+def _assemble(
+    lengths: Floats, twin: Ints, same: NDArray[np.bool_], corner_vertex: Ints | None = None
+) -> DeltaComplex:
+    """Number edges and vertices, average glued lengths, mollify."""
+    first = first_half(twin)
+    half_edge = np.flatnonzero(first)
+    edge = np.empty(twin.size, dtype=np.int64)
+    edge[half_edge] = np.arange(half_edge.size)
+    second = np.flatnonzero(~first)
+    edge[second] = edge[twin.ravel()[second]]
+    sign = np.where(first | same.ravel(), 1, -1).astype(np.int8)
+    if corner_vertex is None:
+        corner_vertex, n_vertices = corner_vertices(twin, same)
+    else:
+        n_vertices = int(corner_vertex.max()) + 1
+    check_scale(lengths)
+    lengths, delta = mollify(_glued_lengths(lengths, twin))
+    return DeltaComplex(
+        lengths=lengths,
+        twin=twin,
+        edge=edge.reshape(-1, 3),
+        sign=sign.reshape(-1, 3),
+        corner_vertex=corner_vertex,
+        n_vertices=n_vertices,
+        n_edges=half_edge.size,
+        labels=np.arange(n_vertices),
+        mollification=delta,
+    )
+
+
+def _from_simplicial(lengths: Floats, faces: Ints, positions: Floats | None) -> DeltaComplex:
+    labels, corner_vertex = _compressed(faces)
+    twin, same = twins_of_faces(corner_vertex, labels)
+    _check_fans(twin, same, corner_vertex, labels)
+    K = _assemble(lengths, twin, same, corner_vertex)
+    return replace(K, labels=labels, positions=None if positions is None else positions[labels])
+
+
+def _restricted(K: DeltaComplex, chosen: Ints, new_face: Ints) -> DeltaComplex:
+    """The subcomplex of the chosen faces, a union of components, which get new numbers."""
+    old = K.twin[chosen]
+    twin = np.where(old >= 0, 3 * new_face[old // 3] + old % 3, -1)
+    reversing = (old >= 0) & (K.sign[chosen] == K.sign.ravel()[old])
+    vertices, corner_vertex = _compressed(K.corner_vertex[chosen])
+    part = _assemble(K.lengths[chosen], twin, reversing, corner_vertex)
+    return replace(
+        part,
+        labels=K.labels[vertices],
+        positions=None if K.positions is None else K.positions[vertices],
+        mollification=K.mollification,
+        distortion=None if K.distortion is None else K.distortion[chosen],
+    )
+
+
+def _compressed(indices: Ints) -> tuple[Ints, Ints]:
+    """The sorted indices that occur, and the array renumbered by them."""
+    if indices.max() > 4 * indices.size:
+        present, compact = np.unique(indices, return_inverse=True)
+        return present, compact.reshape(indices.shape)
+    used = np.zeros(int(indices.max()) + 1, dtype=bool)
+    used[indices] = True
+    present = np.flatnonzero(used)
+    if present.size == used.size:
+        return present, indices
+    return present, (np.cumsum(used) - 1)[indices]
+
+
+def _glued_lengths(lengths: Floats, twin: Ints) -> Floats:
+    """Lengths made equal on glued sides, where they may differ by rounding."""
+    other = lengths.ravel()[twin]
+    if twin.min() < 0:
+        other = np.where(twin >= 0, other, lengths)
+    if np.array_equal(other, lengths):
+        return lengths
+    check_equal_when_glued(lengths, twin, "lengths")
+    return 0.5 * (lengths + other)
+
+
+def _check_fans(twin: Ints, same: NDArray[np.bool_], corner_vertex: Ints, labels: Ints) -> None:
+    """Raise if the faces at some vertex form more than one fan."""
+    if twin.min() >= 0 and not same.any() and fans_are_whole(twin, corner_vertex, labels.size):
+        return
+    fan, n_fans = corner_vertices(twin, same)
+    if n_fans == labels.size:
+        return
+    vertex_of_fan = np.empty(n_fans, dtype=np.int64)
+    vertex_of_fan[fan] = corner_vertex
+    count = np.bincount(vertex_of_fan, minlength=labels.size)
+    bad = np.flatnonzero(count > 1)
+    raise MeshError(
+        f"{bad.size} vertices join more than one fan of faces; the first, vertex {labels[bad[0]]}, "
+        f"joins {count[bad[0]]}. The surface pinches there: split such vertices, one copy per fan."
+    )

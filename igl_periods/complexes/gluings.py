@@ -1,0 +1,230 @@
+"""Gluings of triangles: from faces, from squares, and the vertices and edges that they make.
+
+A gluing is an array ``twin`` of shape (m, 3): ``twin[f, s] = 3 f' + s'`` glues side ``s`` of
+face ``f`` to side ``s'`` of face ``f'``, and -1 leaves it free.  A second array ``same`` of the
+same shape says which sides are glued running the *same* way, so that orientations disagree
+there; on an oriented surface it is all False.
+
+Side ``s`` runs from corner ``s + 1`` to corner ``s + 2`` (mod 3).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.sparse import coo_array, csr_array
+from scipy.sparse.csgraph import connected_components
+
+from igl_periods.arrays import Bools, Ints
+from igl_periods.errors import ComplexError, MeshError
+
+from .checked_arrays import checked_array
+
+# More triangles than this do not fit into the memory of common computers.
+MOST_TRIANGLES = 10**8
+
+
+def twins_of_faces(faces: Ints, labels: Ints) -> tuple[Ints, Bools]:
+    """Glue the faces of a simplicial complex where they share two corners.
+
+    Parameters
+    ----------
+    faces : (m, 3) int
+        Corners, numbered without gaps.
+    labels : (n,) int
+        What the corners are called in messages.
+
+    Returns
+    -------
+    twin, same : (m, 3) int, (m, 3) bool
+
+    Raises
+    ------
+    MeshError
+        If an edge has more than two faces.
+    """
+    small = faces.astype(index_type(faces.size))
+    tail, head = np.roll(small, -1, 1).ravel(), np.roll(small, 1, 1).ravel()
+    low, high = np.minimum(tail, head), np.maximum(tail, head)
+    order = _sorted_by(high, labels.size)
+    by_low = _sorted_by(low[order], labels.size)
+    order = order[by_low]
+    low, high = low[order], high[order]
+    paired = (low[1:] == low[:-1]) & (high[1:] == high[:-1])
+    if np.any(paired[1:] & paired[:-1]):
+        _raise_crowded_edge(low * np.int64(labels.size) + high, order, labels[tail], labels[head])
+    if paired[0::2].all() and not paired[1::2].any():
+        one, other = order[0::2], order[1::2]
+    else:
+        one, other = order[:-1][paired], order[1:][paired]
+    twin = np.full(tail.size, -1, dtype=np.int64)
+    twin[one], twin[other] = other, one
+    same = np.zeros(tail.size, dtype=bool)
+    same[one] = same[other] = tail[one] == tail[other]
+    return twin.reshape(-1, 3), same.reshape(-1, 3)
+
+
+def index_type(largest: int) -> type[np.signedinteger[Any]]:
+    """The type of indices up to ``largest``: 32 bits, where they do, halve the memory traffic."""
+    return np.int32 if largest < np.iinfo(np.int32).max else np.int64
+
+
+def _sorted_by(keys: NDArray[np.signedinteger[Any]], n: int) -> NDArray[np.signedinteger[Any]]:
+    """The stable order of keys below n, in linear time: the transpose of a sparse matrix."""
+    rows = np.arange(keys.size + 1, dtype=keys.dtype)
+    return csr_array((rows[:-1], keys, rows), shape=(keys.size, n)).tocsc().data
+
+
+def _raise_crowded_edge(key: Ints, order: Ints, tail: Ints, head: Ints) -> None:
+    _, first, count = np.unique(key, return_index=True, return_counts=True)
+    bad = np.flatnonzero(count > 2)
+    half_edge = order[first[bad[0]]]
+    raise MeshError(
+        f"{bad.size} edges border more than two faces; the first, from vertex {tail[half_edge]} to "
+        f"{head[half_edge]}, borders {count[bad[0]]}. A surface has at most two faces at an edge: "
+        "look for duplicate faces, internal walls or sheets that touch, and split them there."
+    )
+
+
+def checked_twin(twin: ArrayLike) -> Ints:
+    """``twin`` as an (m, 3) integer array, an involution without fixed points (or -1).
+
+    Raises
+    ------
+    ComplexError
+    """
+    glued = checked_array(twin, "twin", ComplexError)
+    if glued.ndim != 2 or glued.shape[1] != 3 or glued.shape[0] == 0:
+        raise ComplexError(f"twin must have shape (m, 3) with m >= 1, not {glued.shape}.")
+    if not np.issubdtype(glued.dtype, np.integer):
+        raise ComplexError(f"twin must be integer (half-edges 3 f + s), not {glued.dtype}.")
+    low, high = int(glued.min()), int(glued.max())
+    if low < -1 or high >= glued.size:
+        raise ComplexError(
+            f"twin has entries from {low} to {high}; with {len(glued)} faces the half-edges are "
+            f"0 … {glued.size - 1}, and -1 is a free side."
+        )
+    glued = glued.astype(np.int64)
+    flat = glued.ravel()
+    half_edge = np.flatnonzero(flat >= 0)
+    wrong = half_edge[(flat[flat[half_edge]] != half_edge) | (flat[half_edge] == half_edge)]
+    if wrong.size:
+        h = int(wrong[0])
+        raise ComplexError(
+            f"twin is no involution without fixed points: half-edge {h} is glued to {flat[h]}, "
+            f"and {flat[h]} to {flat[flat[h]]} ({wrong.size} such half-edges). Each side is glued "
+            "to one other side, and back."
+        )
+    return glued
+
+
+def checked_same(same: ArrayLike, twin: Ints) -> Bools:
+    """``same`` as an (m, 3) boolean array, equal on glued sides and False on free ones.
+
+    Raises
+    ------
+    ComplexError
+    """
+    alike = checked_array(same, "same", ComplexError)
+    if alike.shape != twin.shape or alike.dtype != np.bool_:
+        raise ComplexError(
+            f"same must be a boolean array of the shape of twin, {twin.shape}, not {alike.shape} "
+            f"of {alike.dtype}."
+        )
+    wrong = np.flatnonzero(np.where(twin >= 0, alike != alike.ravel()[twin], alike))
+    if wrong.size:
+        raise ComplexError(
+            f"same differs on the two halves of an edge, or is True on a free side: half-edge "
+            f"{wrong[0]} ({wrong.size} such half-edges)."
+        )
+    return alike
+
+
+def corner_vertices(twin: Ints, same: Bools) -> tuple[Ints, int]:
+    """The vertex at each corner: the classes of corners that the gluing identifies.
+
+    Returns
+    -------
+    corner_vertex : (m, 3) int
+        Numbered by first appearance.
+    n_vertices : int
+    """
+    half_edge = np.flatnonzero(twin.ravel() >= 0)
+    other = twin.ravel()[half_edge]
+    start, end = next_corner(half_edge), next_corner(half_edge, 2)
+    other_start, other_end = next_corner(other), next_corner(other, 2)
+    crossed = same.ravel()[half_edge]
+    one: Ints = np.concatenate([start, end])
+    two: Ints = np.concatenate(
+        [np.where(crossed, other_start, other_end), np.where(crossed, other_end, other_start)]
+    )
+    n, label = components_of(one, two, twin.size)
+    _, first = np.unique(label, return_index=True)
+    rank = np.empty(n, dtype=np.int64)
+    rank[np.argsort(first)] = np.arange(n)
+    return rank[label].reshape(-1, 3), n
+
+
+def fans_are_whole(twin: Ints, corner_vertex: Ints, n_vertices: int) -> bool:
+    """Whether walking once around each vertex meets all of its corners; closed and oriented only.
+
+    Much faster than :func:`corner_vertices`, where the vertices are known already.
+    """
+    corners = corner_vertex.ravel()
+    half_edge: Ints = np.arange(corners.size)
+    # The corner at the same vertex in the face across the side before it.
+    onward = twin.ravel()[next_corner(half_edge, 2)]
+    onward = next_corner(onward, 2)
+    first = np.empty(n_vertices, dtype=np.int64)
+    first[corners] = half_edge
+    met, corner = 0, first
+    while corner.size:
+        met += corner.size
+        corner = onward[corner]
+        going = corner != first
+        corner, first = corner[going], first[going]
+    return met == corners.size
+
+
+def next_corner(half_edge: Ints, steps: int = 1) -> Ints:
+    """The half-edge (or corner) ``steps`` further round in the same face."""
+    corner = half_edge % 3
+    return half_edge + np.where(corner + steps < 3, steps, steps - 3)
+
+
+def components_of(one: Ints, two: Ints, n: int) -> tuple[int, NDArray[np.int32]]:
+    """Connected components of the graph on ``n`` nodes with edges ``one[i] two[i]``."""
+    graph = coo_array((np.ones(one.size, dtype=np.int8), (one, two)), shape=(n, n)).tocsr()
+    return connected_components(graph, directed=False)
+
+
+def first_half(twin: Ints) -> NDArray[np.bool_]:
+    """Mask of the half-edges that give their edge its direction, flat of length 3 m."""
+    flat = twin.ravel()
+    return (flat < 0) | (np.arange(flat.size) < flat)
+
+
+def reversing_sides(twin: Ints, sign: NDArray[np.int8]) -> Bools:
+    """Mask of the sides across which orientations disagree; (m, 3)."""
+    return np.asarray((twin >= 0) & (sign == sign.ravel()[twin]))
+
+
+def face_components(twin: Ints) -> tuple[int, Ints]:
+    """Number of components of a gluing, and the component of each face."""
+    glued = np.flatnonzero(twin.ravel() >= 0)
+    n, label = components_of(glued // 3, twin.ravel()[glued] // 3, len(twin))
+    return n, label.astype(np.int64)
+
+
+def orientable_faces(twin: Ints, same: Bools) -> Bools:
+    """Mask of the faces whose component is orientable: its orientation cover falls in two."""
+    m = len(twin)
+    half_edge = np.flatnonzero(twin.ravel() >= 0)
+    here, there = half_edge // 3, twin.ravel()[half_edge] // 3
+    swap = m * same.ravel()[half_edge].astype(np.int64)
+    _, sheet = components_of(
+        np.concatenate([here, here + m]), np.concatenate([there + swap, there + m - swap]), 2 * m
+    )
+    return np.asarray(sheet[:m] != sheet[m:])

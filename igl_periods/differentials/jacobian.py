@@ -1,0 +1,66 @@
+r"""The Abel–Jacobi map.
+
+It takes a point P to :math:`\bigl(\int_{P_0}^P \zeta_k\bigr)_k` in the Jacobian
+:math:`C^g / (Z^g + \Pi Z^g)`.  With the real coordinates x, y of
+:math:`x + \Pi y \in C^g` the Jacobian is R^{2g} / Z^{2g}, and the map is
+
+.. math:: x_k(P) = \int_{P_0}^P \alpha_k, \qquad y_l(P) = \int_{P_0}^P \beta_l \pmod 1 .
+
+References
+----------
+Farkas, Kra, "Riemann surfaces" (1992), section III.6.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from igl_periods.arrays import Complexes, Floats
+from igl_periods.complexes import along_sides, primitive
+from igl_periods.periods import PeriodMatrix
+
+from .normalised import harmonic_forms_on_edges
+
+
+@dataclass(frozen=True, eq=False)
+class AbelJacobi:
+    """The Abel–Jacobi map of the vertices.
+
+    Attributes
+    ----------
+    coordinates : (n_vertices, 2g) float
+        x_1..x_g, y_1..y_g, each in [0, 1); 0 at the base vertex.
+    points : (n_vertices, g) complex
+        x + Π y, in the fundamental parallelepiped of the lattice Z^g + Π Z^g.
+    """
+
+    coordinates: Floats
+    points: Complexes
+
+
+def abel_jacobi(pm: PeriodMatrix, base: int = 0) -> AbelJacobi:
+    """Map every vertex to the Jacobian.
+
+    Parameters
+    ----------
+    pm : PeriodMatrix
+    base : int
+        The vertex of ``pm.complex`` that goes to 0.
+
+    Raises
+    ------
+    ValueError
+        If there is no such vertex.
+    """
+    K = pm.complex
+    if not 0 <= base < K.n_vertices:
+        raise ValueError(f"there is no vertex {base}: there are {K.n_vertices}, counted from 0.")
+    sides = along_sides(K, harmonic_forms_on_edges(pm))
+    integrals = primitive(K.corner_vertex, np.moveaxis(sides, 0, -1))
+    coordinates = np.mod(integrals - integrals[base], 1.0)
+    # np.mod(-1e-17, 1) is 1.
+    coordinates[coordinates == 1.0] = 0.0
+    x, y = coordinates[:, : pm.genus], coordinates[:, pm.genus :]
+    return AbelJacobi(coordinates, x + y @ pm.matrix)

@@ -1,0 +1,48 @@
+r"""Forms of least energy by functions of high degree, conical at cone points.
+
+The same cochains and the same D as in :mod:`igl_periods.harmonic`, with better trial functions: on
+flat faces polynomials of degree p.  At a vertex of total angle θ ≠ 2π harmonic functions behave
+like :math:`r^{2\pi/\theta}`, which no polynomial does; a face with such an apex has functions of
+degree p in :math:`\tau = t^\kappa`, κ = 2π/θ, and in the position s on the opposite side,
+
+.. math:: \int |\nabla u|^2 = \frac{1}{|R \times R'|} \int_0^1\!\!\int_0^1 \Big[
+          \kappa |R'|^2 \tau u_\tau^2 - 2 (R \cdot R')\, u_\tau u_s
+          + \frac{|R|^2 u_s^2}{\kappa \tau} \Big]\, d\tau\, ds,
+
+the point being t R(s).  Traces of the two kinds agree, so that the forms are conforming, D is an
+upper bound of the exact one, and the bound of the period matrix falls exponentially with p.
+
+=======================  ======================================================================
+``reference_elements``   the kinds of elements, on the square or triangle of reference
+``placement``            which face gets which element; faces with two cone points are divided
+``condensation``         stiffness of many faces at once, bubbles eliminated
+``trace_system``         the sparse system for the traces on edges
+``least_energy``         the forms, and their energies from gradients
+``point_values``         values, gradients and integrals of the forms anywhere
+=======================  ======================================================================
+
+References
+----------
+Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 3.
+Babuška, Suri, "The p and h-p versions of the finite element method" (1994).
+"""
+
+from .placement import separate_cones
+from .trace_system import count_unknowns
+from .least_energy import (
+    HighOrderForms,
+    dirichlet_matrix,
+    energy_excess,
+    high_order_forms,
+    rounding_allowance,
+)
+
+__all__ = [
+    "separate_cones",
+    "count_unknowns",
+    "dirichlet_matrix",
+    "energy_excess",
+    "high_order_forms",
+    "HighOrderForms",
+    "rounding_allowance",
+]

@@ -1,0 +1,93 @@
+r"""Forms of least energy by linear functions: one factorisation, energies as Gram matrices.
+
+The harmonic form in the class of a closed cochain c is c + df of least energy
+:math:`\sum_e \rho(e)\, \omega(e)^2`:
+
+.. math:: L f = -d^T \rho\, c, \qquad L = d^T \rho\, d .
+
+L is positive (``igl.cotmatrix`` has the opposite sign), the same for all classes, and factored once
+by CHOLMOD.  The *Dirichlet matrix* :math:`D_{ij} = \int \omega_i \wedge {*\omega_j}`, (2g, 2g), is
+all that the period matrix needs.
+
+It is never taken from the quadratic form of L, but summed from the gradients of the forms, face by
+face: a Gram matrix of explicit closed forms.  So :math:`D \ge D_{exact}` whatever the solver did
+(Dirichlet's principle), and an error of f enters only at second order.
+
+====================  =========================================================================
+``laplace_matrix``    the Laplacian, grounded at one vertex, and right-hand sides
+``cholmod``           sparse Cholesky factors, and solutions for many right-hand sides
+``potentials``        the functions f that make c + df harmonic
+``linear_forms``      gradients on blocks of faces, and sums of their products
+``energies``          D, with few functions held at a time
+``harmonic_cochains`` harmonic forms as values on edges
+``constant_forms``    forms that are constant on every triangle
+``excess``            where on the surface the bound of the period matrix originates
+``rounding``          what rounding can change in the energies
+====================  =========================================================================
+
+References
+----------
+Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 3.
+Chen, Davis, Hager, Rajamanickam, "Algorithm 887: CHOLMOD" (2008).
+"""
+
+from .laplace_matrix import laplacian, outflow
+from .cholmod import CholeskyFactor, NotPositiveDefiniteError, factor, solve
+from .potentials import factored, factored_laplacian, harmonic_potentials, solutions
+from .energies import (
+    dirichlet_matrix,
+    harmonic_energies,
+    harmonic_problem,
+    linear_energies,
+    weighted_energies,
+)
+from .harmonic_cochains import (
+    checked_basis,
+    harmonic_basis,
+    harmonic_form_blocks,
+    harmonic_forms,
+    side_matrix,
+)
+from .constant_forms import face_areas, linear_parts, spread_to_vertices
+from .excess import energy_excess
+from .rounding import (
+    POWER_STEPS,
+    TRIANGLE_ERROR,
+    ULP,
+    allowance_for_loss,
+    extreme_sensitivity,
+    geometric_allowance,
+)
+
+__all__ = [
+    "laplacian",
+    "outflow",
+    "factored_laplacian",
+    "CholeskyFactor",
+    "NotPositiveDefiniteError",
+    "factor",
+    "solve",
+    "factored",
+    "solutions",
+    "harmonic_potentials",
+    "dirichlet_matrix",
+    "harmonic_energies",
+    "harmonic_problem",
+    "linear_energies",
+    "weighted_energies",
+    "checked_basis",
+    "harmonic_basis",
+    "harmonic_form_blocks",
+    "harmonic_forms",
+    "side_matrix",
+    "face_areas",
+    "linear_parts",
+    "spread_to_vertices",
+    "energy_excess",
+    "allowance_for_loss",
+    "extreme_sensitivity",
+    "geometric_allowance",
+    "POWER_STEPS",
+    "TRIANGLE_ERROR",
+    "ULP",
+]

@@ -1,0 +1,189 @@
+"""Make a surface of a mesh that nearly is one, and count every change.
+
+The steps, in this order, each a function from a mesh to a mesh:
+
+* drop triangles that repeat another one;
+* stitch boundary edges that lie in pairs at exactly the same place, by welding their ends.  This
+  closes the seams of files that repeat vertices, and touches no surface that is closed already:
+  sheets of an immersed surface may meet in a vertex and stay apart;
+* drop triangles that use a vertex twice, and those that repeat another one now;
+* turn triangles over until they agree, in every component that is orientable;
+* split non-manifold edges, pairing the triangles that run through the edge in opposite directions
+  (Guéziec et al.), and give each fan of triangles at a vertex a vertex of its own;
+* optionally close boundary loops, by a cone over the loop from its centre;
+* drop vertices without triangles.
+
+No vertex moves.  Slivers and triangles of area 0 stay: dropping them would open holes.
+
+References
+----------
+Guéziec, Taubin, Lazarus, Horn, "Cutting and stitching: converting sets of polygons to manifold
+surfaces" (2001).
+"""
+
+from __future__ import annotations
+
+import igl
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from igl_periods.arrays import Floats, Ints
+from igl_periods.complexes import (
+    check_finite,
+    checked_corners,
+    checked_positions,
+    components_of,
+    corner_vertices,
+    next_corner,
+    orientable_faces,
+)
+from igl_periods.errors import MeshError
+
+from .facts import collapsed, glued_in_pairs, repeats
+from .report import RepairStep
+from .welding import compressed, first_equal_row
+
+
+def repair_mesh(
+    V: ArrayLike, F: ArrayLike, *, largest_hole: int = 0
+) -> tuple[Floats, Ints, tuple[RepairStep, ...]]:
+    """Weld, drop, orient, split and fill what keeps a mesh from being a surface.
+
+    Parameters
+    ----------
+    V : (n, d) array-like
+    F : (m, 3) array-like of int
+    largest_hole : int
+        Boundary loops of up to that many edges are closed; none by default.
+
+    Returns
+    -------
+    V : (n', d) float
+    F : (m', 3) int
+    steps : tuple of RepairStep
+        Every step, with the number of things that it changed.
+
+    Raises
+    ------
+    MeshError
+        If the arrays have a wrong shape or type, an index is out of range, coordinates are not
+        finite, or no triangle is left.
+    """
+    V = checked_positions(V)
+    F = checked_corners(F, len(V))
+    check_finite(V, F)
+    steps = []
+    F, repeated = _drop(F, _repeated(V, F))
+    F, welded = _stitch(V, F)
+    F, dropped = _drop(F, collapsed(F))
+    steps.append(RepairStep("vertices welded by stitching boundary edges", welded))
+    steps.append(RepairStep("triangles dropped that used a vertex twice", dropped))
+    F, dropped = _drop(F, _repeated(V, F))
+    steps.append(RepairStep("duplicate triangles dropped", repeated + dropped))
+    if len(F) == 0:
+        raise MeshError("no triangle is left after repair: all of them are collapsed.")
+    F, turned = _orient(F)
+    steps.append(RepairStep("triangles turned over", turned))
+    V, F, added = _split_edges(V, F)
+    steps.append(RepairStep("vertices added by splitting non-manifold edges", added))
+    V, F, added = _split_vertices(V, F)
+    steps.append(RepairStep("vertices added by splitting non-manifold vertices", added))
+    V, F, filled = _fill_holes(V, F, largest_hole)
+    steps.append(RepairStep(f"holes of up to {largest_hole} edges filled", filled))
+    used, faces = compressed(V, F)
+    steps.append(RepairStep("vertices without triangles dropped", len(V) - len(used)))
+    return used, faces, tuple(steps)
+
+
+def _stitch(V: Floats, F: Ints) -> tuple[Ints, int]:
+    """Weld the ends of boundary edges of which exactly two lie at the same place."""
+    twin, _, _ = glued_in_pairs(F)
+    free = np.flatnonzero(twin.ravel() < 0)
+    start, end = F.ravel()[next_corner(free)], F.ravel()[next_corner(free, 2)]
+    place = first_equal_row(V)
+    ends = np.sort(np.column_stack([place[start], place[end]]), axis=1)
+    _, edge, count = np.unique(first_equal_row(ends), return_inverse=True, return_counts=True)
+    paired = np.flatnonzero((count == 2)[edge] & (ends[:, 0] != ends[:, 1]))
+    one, other = paired[np.argsort(edge[paired], kind="stable")].reshape(-1, 2).T
+    same_way = place[start[one]] == place[start[other]]
+    _, welded = components_of(
+        np.concatenate([start[one], end[one]]),
+        np.concatenate(
+            [
+                np.where(same_way, start[other], end[other]),
+                np.where(same_way, end[other], start[other]),
+            ]
+        ),
+        len(V),
+    )
+    _, first, inverse = np.unique(welded, return_index=True, return_inverse=True)
+    return first[inverse][F], len(V) - first.size
+
+
+def _drop(F: Ints, wrong: NDArray[np.bool_]) -> tuple[Ints, int]:
+    return F[~wrong], int(np.count_nonzero(wrong))
+
+
+def _repeated(V: Floats, F: Ints) -> NDArray[np.bool_]:
+    """Mask of the triangles that repeat an earlier one.
+
+    That is, one with the same vertices and the same orientation, or with the same vertices where
+    edges are crowded, or at the same place and without neighbours.  Two triangles that are glued
+    along all three sides are no such thing, but a sphere.
+    """
+    if len(F) == 0:
+        return np.zeros(0, dtype=bool)
+    _, _, faces_at = glued_in_pairs(F)
+    least_first = F[np.arange(len(F))[:, None], (F.argmin(axis=1)[:, None] + np.arange(3)) % 3]
+    places = first_equal_row(V)[F]
+    return (
+        repeats(least_first)
+        | (repeats(np.sort(F, axis=1)) & (faces_at > 2).any(axis=1))
+        | (repeats(np.sort(places, axis=1)) & (faces_at == 1).all(axis=1))
+    )
+
+
+def _orient(F: Ints) -> tuple[Ints, int]:
+    twin, same, _ = glued_in_pairs(F)
+    if not same.any():
+        return F, 0
+    oriented, _ = igl.bfs_orient(F)
+    turned = (oriented != F).any(axis=1) & orientable_faces(twin, same)
+    return np.where(turned[:, None], oriented, F), int(np.count_nonzero(turned))
+
+
+def _split_edges(V: Floats, F: Ints) -> tuple[Floats, Ints, int]:
+    _, _, faces_at = glued_in_pairs(F)
+    if faces_at.max() <= 2:
+        return V, F, 0
+    faces, origin = igl.split_nonmanifold(F)
+    return V[origin], faces, origin.size - np.unique(F).size
+
+
+def _split_vertices(V: Floats, F: Ints) -> tuple[Floats, Ints, int]:
+    twin, same, _ = glued_in_pairs(F)
+    fan, n_fans = corner_vertices(twin, same)
+    first_corner = np.unique(fan, return_index=True)[1]
+    origin = F.ravel()[first_corner]
+    # The first fan of a vertex keeps it, the others get copies at the end of V.
+    extra = np.ones(n_fans, dtype=bool)
+    extra[np.unique(origin, return_index=True)[1]] = False
+    new = np.where(extra, len(V) + np.cumsum(extra) - 1, origin)
+    return np.vstack([V, V[origin[extra]]]), new[fan], int(np.count_nonzero(extra))
+
+
+def _fill_holes(V: Floats, F: Ints, largest: int) -> tuple[Floats, Ints, int]:
+    """A cone over each boundary loop of up to ``largest`` edges."""
+    twin, _, _ = glued_in_pairs(F)
+    free = np.flatnonzero(twin.ravel() < 0)
+    start, end = F.ravel()[next_corner(free)], F.ravel()[next_corner(free, 2)]
+    _, label = components_of(start, end, len(V))
+    _, loop, size = np.unique(label[start], return_inverse=True, return_counts=True)
+    filled = size <= largest
+    chosen = filled[loop]
+    centre = np.cumsum(filled) - 1
+    # On an oriented surface each vertex of a loop starts one of its sides: this is their mean.
+    centres = np.zeros((int(filled.sum()), V.shape[1]))
+    np.add.at(centres, centre[loop[chosen]], V[start[chosen]] / size[loop[chosen], None])
+    cones = np.column_stack([end, start, len(V) + centre[loop]])[chosen]
+    return np.vstack([V, centres]), np.vstack([F, cones]), int(filled.sum())

@@ -1,0 +1,83 @@
+"""From a file to the surface that is meant: its mesh or gluing, the double, a component."""
+
+from __future__ import annotations
+
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from igl_periods.complexes import DeltaComplex, double
+from igl_periods.errors import ComplexError
+
+from .formats.read import EXTENSIONS
+from .gluing_file import read_gluing
+from .load import load_mesh
+from .report import MeshReport
+
+_GLUING = ".json"
+# Extensions of the files that hold surfaces.
+SURFACE_EXTENSIONS = (*EXTENSIONS, _GLUING)
+
+
+def read_surface(
+    path: str | PathLike[str], repair: bool = False
+) -> tuple[tuple[Any, ...], MeshReport | None]:
+    """Read a mesh, or a gluing of triangles (.json).
+
+    Parameters
+    ----------
+    path : path-like
+    repair : bool
+        As in :func:`load_mesh`; a gluing is never repaired.
+
+    Returns
+    -------
+    surface : tuple
+        ``(V, F)`` or ``(K,)``: the arguments of :func:`~igl_periods.periods.arguments.as_complex`.
+    report : MeshReport or None
+        None for a gluing.
+
+    Raises
+    ------
+    FileNotFoundError, MeshError, ComplexError
+        As :func:`load_mesh` and :func:`~igl_periods.meshes.gluing_file.read_gluing`.
+    """
+    if Path(path).suffix.lower() == _GLUING:
+        return (read_gluing(path),), None
+    V, F, report = load_mesh(path, repair=repair)
+    return (V, F), report
+
+
+def surface_of(
+    K: DeltaComplex, doubled: bool = False, component: int | None = None
+) -> DeltaComplex:
+    """The double or the complex itself, all of it or one component.
+
+    Parameters
+    ----------
+    K : DeltaComplex
+    doubled : bool
+    component : int, optional
+        Counted from 1, in the order of :func:`components_by_genus`.
+
+    Raises
+    ------
+    ComplexError
+        If there is no such component.
+    """
+    surface = double(K) if doubled else K
+    if component is None:
+        return surface
+    parts = components_by_genus(surface)
+    if not 1 <= component <= len(parts):
+        raise ComplexError(f"there is no component {component}: there are {len(parts)}.")
+    return parts[component - 1]
+
+
+def components_by_genus(K: DeltaComplex) -> list[DeltaComplex]:
+    """The connected components: closed ones first, of these those of large genus, of many faces."""
+
+    def rank(part: DeltaComplex) -> tuple[bool, int, int]:
+        return part.n_boundary_edges > 0, part.euler_characteristic, -part.n_faces
+
+    return sorted(K.components(), key=rank)

@@ -1,0 +1,56 @@
+r"""When two period matrices belong to the same Riemann surface; symmetries and invariants.
+
+By Torelli's theorem two surfaces are isomorphic iff γ·Π₁ = Π₂ for some γ in Sp(2g, Z), that is, in
+terms of energies, :math:`U G_1 U^T = G_2` and :math:`U J U^T = J` for an integer U.  The rows of U
+are short vectors, of which there are finitely many: they are enumerated, and put together by
+backtracking.  If Π₁ and Π₂ are known to within d₁ and d₂, then with c = d₁ d₂ an isomorphism obeys
+
+.. math:: \tfrac1c\, G_2 \le U G_1 U^T \le c\, G_2,
+
+so that a finished search that finds nothing is a proof that the surfaces differ.  γ with Π₁ = Π₂
+are the automorphisms, a finite group that contains −1.
+
+Invariants need no search: Klein's j for genus 1, Rosenhain's roots and the invariants of Igusa and
+Clebsch for genus 2, vanishing theta constants for genus 3.
+
+======================  =======================================================================
+``lattice_isometries``  integer isometries of quadratic forms, to within a tolerance
+``equivalence``         γ with γ·Π₁ = Π₂
+``automorphisms``       the group of γ with γ·Π = Π
+``theta``               theta constants, and hyperellipticity
+``genus_one``           Klein's j
+``genus_two``           roots and invariants of the curve of genus 2
+``quadratic_numbers``   entries that look like quadratic irrationals
+======================  =======================================================================
+
+References
+----------
+Plesken, Souvignier, "Computing isometries of lattices" (1997).
+Mumford, "Tata lectures on theta II" (1984).
+"""
+
+from .equivalence import (
+    ARRAY_TOLERANCE,
+    Isomorphisms,
+    LARGEST_TOLERANCE,
+    logarithms_found,
+    moduli_distance,
+    symplectic_isomorphisms,
+)
+from .automorphisms import SymplecticGroup, symplectic_automorphism_group
+from .theta import vanishing_even_characteristics
+from .genus_two import igusa_clebsch_invariants, rosenhain_roots
+
+__all__ = [
+    "ARRAY_TOLERANCE",
+    "Isomorphisms",
+    "LARGEST_TOLERANCE",
+    "logarithms_found",
+    "moduli_distance",
+    "symplectic_isomorphisms",
+    "symplectic_automorphism_group",
+    "SymplecticGroup",
+    "vanishing_even_characteristics",
+    "igusa_clebsch_invariants",
+    "rosenhain_roots",
+]

@@ -1,0 +1,231 @@
+r"""When do two period matrices belong to the same Riemann surface?
+
+By Torelli's theorem they do iff an element of Sp(2g, Z) takes one to the other.  In terms of the
+Dirichlet matrices G₁, G₂ that is an isometry of lattices: an integer U with
+
+.. math:: U G_1 U^T = G_2, \qquad U J U^T = J,
+
+and those can be found (:mod:`igl_periods.moduli.lattice_isometries`).
+
+**Tolerance.**  Let G₁, G₂ be the symplectic means of discrete Dirichlet matrices, c₁, c₂ their
+largest symplectic eigenvalues and c = c₁c₂.  If the polyhedral surfaces are equivalent, then there
+is a U with
+
+.. math:: c^{-1} G_2 \le U G_1 U^T \le c\, G_2, \qquad\text{hence}\qquad
+          |U G_1 U^T - G_2|_{ij} \le (c - 1) \sqrt{G_{2,ii}\, G_{2,jj}} .
+
+All U under the first inequality are enumerated, by way of the second; where there is none, the
+surfaces are *proved* to be different.  A tolerance t stands for c = e^t, so that it bounds all
+|log λ|, λ the eigenvalues of (U G₁ Uᵀ)⁻¹ G₂, and is itself at most Siegel's distance.
+
+An integer U with U J Uᵀ = −J reverses the orientation.
+
+References
+----------
+Plesken, Souvignier, "Computing isometries of lattices" (1997).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from igl_periods.arrays import Complexes, Floats, Ints
+from igl_periods.errors import EnumerationLimitError
+from igl_periods.siegel import check_same_genus, log_eigenvalues, siegel_reduce, siegel_transform
+from igl_periods.symplectic import energy_matrix, form_action, product, unimodular_inverse
+
+from .lattice_isometries import isometries
+
+# What a plain array is taken to be right to, and the largest tolerance: with lengths uncertain by
+# a factor 2 the zero vector could be the image of a basis vector.
+ARRAY_TOLERANCE = 1e-8
+LARGEST_TOLERANCE = math.log(2.0)
+
+
+class Isomorphisms(list[Ints]):
+    """A list of modular transformations, and what it proves.
+
+    Attributes
+    ----------
+    tolerance : float
+        The t of the search: all γ were looked for for which the eigenvalues λ of
+        D(γ·Π₁)⁻¹ D(Π₂) lie between e^{−t} and e^t.
+    certified : bool
+        Whether t comes from the certificates of two polyhedral surfaces.  If so, an equivalence of
+        the two surfaces is in the list, and an empty list proves that there is none.
+    complete : bool
+        Whether the search came to its end: neither the limit that was asked for nor the work
+        limit stopped it.
+    gave_up : str
+        Which work limit stopped the search; empty if none did.
+    """
+
+    def __init__(self, tolerance: float, certified: bool) -> None:
+        super().__init__()
+        self.tolerance = tolerance
+        self.certified = certified
+        self.complete = True
+        self.gave_up = ""
+
+    @property
+    def verdict(self) -> str:
+        """What the search shows, in words."""
+        if self.gave_up:
+            return f"undecided: the search was given up ({self.gave_up})"
+        if self:
+            stopped = "" if self.complete else ", and there may be more"
+            return f"{len(self)} transformations within {self.tolerance:.3g}{stopped}"
+        if self.certified:
+            return "proved: the two polyhedral surfaces are not conformally equivalent"
+        return f"no transformation within {self.tolerance:.3g}"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Isomorphisms, (self.tolerance, self.certified), self.__dict__, iter(self)
+
+
+def symplectic_isomorphisms(
+    Pi1: ArrayLike,
+    Pi2: ArrayLike,
+    tolerance: float | None = None,
+    reversing: bool = False,
+    limit: int | None = None,
+) -> Isomorphisms:
+    """Find every γ in Sp(2g, Z) with γ · Π₁ = Π₂, up to a tolerance.
+
+    Parameters
+    ----------
+    Pi1, Pi2 : (g, g) array-like or PeriodMatrix
+    tolerance : float, optional
+        A t, 0 < t < log 2, see above.  If it is not given it follows from the certificates of the
+        arguments; a plain array is taken to be right to 1e-8.
+    reversing : bool
+        Search for the transformations that reverse the orientation instead: integer γ with
+        γ J γᵀ = −J and (a Π̄₁ + b)(c Π̄₁ + d)⁻¹ = Π₂.
+    limit : int, optional
+        Stop after so many.
+
+    Returns
+    -------
+    Isomorphisms
+        A list of (2g, 2g) int arrays that knows whether it is complete and what it proves; the
+        ones with small entries first.
+
+    Raises
+    ------
+    NotASiegelPointError
+        If an argument is no point of the Siegel upper half-space.
+    ValueError
+        If the genera differ, the tolerance is not positive or too large to separate anything, or
+        there is no tolerance: an uncertified PeriodMatrix has none.
+
+    Examples
+    --------
+    >>> [gamma.tolist() for gamma in symplectic_isomorphisms([[2j]], [[0.5j]])]
+    [[[0, 1], [-1, 0]], [[0, -1], [1, 0]]]
+    """
+    one, two = check_same_genus(Pi1, Pi2)
+    if reversing:
+        one = -one.conj()
+    found = Isomorphisms(*_checked_tolerance(Pi1, Pi2, tolerance))
+    if len(one):
+        _search(one, two, found, limit)
+    else:
+        found.append(np.zeros((0, 0), dtype=np.int64))
+    if reversing:
+        # γ = γ' K, where γ' takes −Π̄₁ to Π₂ and K = diag(1, −1).
+        found[:] = [gamma * np.repeat([1, -1], len(one)) for gamma in found]
+    found.sort(key=_simplest_first)
+    return found
+
+
+def moduli_distance(Pi1: ArrayLike, Pi2: ArrayLike, tolerance: float) -> float:
+    """Siegel's distance in moduli space: the least of γ · Π₁ and Π₂ over all γ in Sp(2g, Z).
+
+    Parameters
+    ----------
+    Pi1, Pi2 : (g, g) array-like or PeriodMatrix
+    tolerance : float
+        Only the γ under this tolerance are compared, as in :func:`symplectic_isomorphisms`.
+
+    Returns
+    -------
+    float
+        The distance, if it is at most the tolerance.  A larger value means that the distance
+        exceeds the tolerance; ∞ that there is no γ under it at all.
+
+    Raises
+    ------
+    RuntimeError
+        If the search had to be given up.
+    NotASiegelPointError, ValueError
+        As :func:`symplectic_isomorphisms`.
+
+    Examples
+    --------
+    >>> round(moduli_distance([[2j]], [[7 + 0.499j]], tolerance=0.1), 6)  # log(1 / 0.998)
+    0.002002
+    """
+    found = symplectic_isomorphisms(Pi1, Pi2, tolerance)
+    if found.gave_up:
+        raise EnumerationLimitError(found.gave_up)
+    logarithms = logarithms_found(found, Pi1, Pi2)
+    return float(np.linalg.norm(logarithms, axis=1).min(initial=math.inf))
+
+
+def logarithms_found(found: Sequence[Ints], Pi1: ArrayLike, Pi2: ArrayLike) -> Floats:
+    """The log λ_i of γ · Π₁ and Π₂ for each γ that was found; (len(found), g)."""
+    # Measured where Π₂ is reduced, so that no digits are lost.
+    target, gamma2 = siegel_reduce(Pi2)
+    moved = [siegel_transform(product(gamma2, gamma), Pi1) for gamma in found]
+    return np.array([log_eigenvalues(Pi, target) for Pi in moved]).reshape(len(moved), len(target))
+
+
+def _checked_tolerance(
+    Pi1: ArrayLike, Pi2: ArrayLike, tolerance: float | None
+) -> tuple[float, bool]:
+    """The tolerance t, and whether it comes from two certificates."""
+    certified = tolerance is None and all(hasattr(Pi, "bound") for Pi in (Pi1, Pi2))
+    if tolerance is None:
+        t = sum(_log_bound(Pi) for Pi in (Pi1, Pi2)) + float(np.finfo(np.float64).eps)
+    else:
+        t = float(tolerance)
+    if not t > 0:
+        raise ValueError(f"the tolerance must be a positive number, not {tolerance}")
+    if t >= LARGEST_TOLERANCE:
+        raise ValueError(
+            f"a tolerance of {t:.3g} is too large to separate anything: it must be less than "
+            "log 2 = 0.693. Where it comes from certificates, refine the mesh or raise the degree."
+        )
+    return t, certified
+
+
+def _log_bound(Pi: Any) -> float:
+    """The logarithm of the factor by which lengths may be wrong."""
+    if not hasattr(Pi, "bound"):
+        return ARRAY_TOLERANCE
+    if Pi.bound is None:
+        raise ValueError("a period matrix without a certificate: state a tolerance yourself")
+    return math.log1p(Pi.bound)
+
+
+def _simplest_first(gamma: Ints) -> tuple[int, list[int]]:
+    return int(np.abs(gamma).sum()), (-gamma).ravel().tolist()
+
+
+def _search(one: Complexes, two: Complexes, found: Isomorphisms, limit: int | None) -> None:
+    """Search between reduced matrices and conjugate back."""
+    (point1, gamma1), (point2, gamma2) = siegel_reduce(one), siegel_reduce(two)
+    back = unimodular_inverse(gamma2)
+    try:
+        for U in isometries(energy_matrix(point1), energy_matrix(point2), found.tolerance):
+            if limit is not None and len(found) >= limit:
+                found.complete = False
+                return
+            found.append(product(back, product(form_action(U).astype(np.int64), gamma1)))
+    except EnumerationLimitError as error:
+        found.complete, found.gave_up = False, str(error)

@@ -1,0 +1,145 @@
+r"""The curve of genus 2 that belongs to a period matrix.
+
+Every surface of genus 2 is a double cover y² = ∏ (x − x_i) of the sphere with six branch points,
+unique up to Möbius transformations.  Three of them may be 0, 1, ∞; the others are Rosenhain's
+quotients of theta constants.  Invariants of the binary sextic ∏ (x − x_i), those of Igusa and
+Clebsch, no longer depend on an order of the branch points.
+
+References
+----------
+Rosenhain, "Abhandlung über die Functionen zweier Variabler mit vier Perioden" (1851).
+Igusa, "Arithmetic variety of moduli for genus two" (1960).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import combinations, permutations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from igl_periods.arrays import Complexes
+from igl_periods.siegel import siegel_reduce
+
+from .theta import of_genus, theta_constants, vanishing_even_characteristics
+
+
+def rosenhain_roots(Pi: ArrayLike) -> Complexes:
+    """Branch points λ, μ, ν of the curve y² = x(x − 1)(x − λ)(x − μ)(x − ν) of genus 2.
+
+    The other three are 0, 1, ∞.  Another marking of the surface permutes the six, so that
+    the triple is one of up to 720 for the same curve.
+
+    Parameters
+    ----------
+    Pi : (2, 2) array-like or PeriodMatrix
+
+    Returns
+    -------
+    (3,) complex
+
+    Raises
+    ------
+    ValueError
+        If Π has another genus, or is (within its error) the period matrix of a product of two
+        elliptic curves, which is no curve of genus 2.
+
+    References
+    ----------
+    Rosenhain (1851); with these characteristics in Dupont, "Moyenne arithmético-géométrique,
+    suites de Borchardt et applications" (2006), section 6.3.
+
+    Examples
+    --------
+    >>> rosenhain_roots(1j / np.sqrt(3) * np.array([[2, -1], [-1, 2]])).real.round(9).tolist()
+    [1.5, 2.0, 3.0]
+    """
+    matrix = siegel_reduce(of_genus(Pi, 2)).matrix
+    if vanishing := vanishing_even_characteristics(Pi):
+        raise ValueError(
+            f"the theta constant of characteristic {vanishing[0]} vanishes: this is the period "
+            "matrix of a product of two elliptic curves, or too close to one"
+        )
+    squares = theta_constants(matrix) ** 2
+    t0, t1, t2, t3 = squares[0b00, 0b00], squares[0b00, 0b10], squares[0b00, 0b01], squares[0, 0b11]
+    t12, t15 = squares[0b11, 0b00], squares[0b11, 0b11]
+    return np.array([t0 * t1 / (t2 * t3), t1 * t12 / (t2 * t15), t0 * t12 / (t3 * t15)])
+
+
+def igusa_clebsch_invariants(roots: ArrayLike) -> Complexes:
+    r"""Igusa–Clebsch invariants I₂, I₄, I₆, I₁₀ of the curve y² = ∏ (x − x_i) of genus 2.
+
+    With (ij) = x_i − x_j they are sums over the ways to divide six points,
+
+    .. math:: I_2 = \sum_{15} (12)^2 (34)^2 (56)^2, \qquad
+              I_4 = \sum_{10} (12)^2 (23)^2 (31)^2 (45)^2 (56)^2 (64)^2, \\
+              I_6 = \sum_{60} (12)^2 (23)^2 (31)^2 (45)^2 (56)^2 (64)^2 (14)^2 (25)^2 (36)^2,
+              \qquad I_{10} = \prod_{i<j} (ij)^2 ,
+
+    where a factor with a point at ∞ is left out.  Two curves are isomorphic iff the invariants
+    are proportional with weights 2, 4, 6, 10.
+
+    Parameters
+    ----------
+    roots : (3,), (5,) or (6,) array-like of complex
+        Rosenhain's λ, μ, ν; or the finite branch points, ∞ being the sixth if there are five.
+
+    Raises
+    ------
+    ValueError
+        If there is another number of roots, or two coincide.
+
+    References
+    ----------
+    Igusa, "Arithmetic variety of moduli for genus two" (1960), section 3.
+
+    Examples
+    --------
+    >>> igusa_clebsch_invariants([0, 1, -1, 1j, -1j]).real.round(9).tolist()  # y² = x⁵ − x
+    [-40.0, -80.0, 320.0, -256.0]
+    """
+    squares = _squared_differences(np.asarray(roots, dtype=np.complex128))
+
+    i2 = sum(_product(squares, pairs) for pairs in _pairings((0, 1, 2, 3, 4, 5)))
+    i4 = i6 = 0j
+    for one, two in _halves():
+        triangles = _product(squares, [*combinations(one, 2), *combinations(two, 2)])
+        i4 += triangles
+        i6 += sum(
+            triangles * _product(squares, zip(one, p, strict=True)) for p in permutations(two)
+        )
+    return np.array([i2, i4, i6, _product(squares, combinations(range(6), 2))])
+
+
+def _product(squares: Complexes, pairs: Iterable[Sequence[int]]) -> complex:
+    return complex(np.prod([squares[i, j] for i, j in pairs]))
+
+
+def _pairings(points: tuple[int, ...]) -> Iterator[list[tuple[int, int]]]:
+    """The ways to divide points into pairs: 15 for six points."""
+    if not points:
+        yield []
+        return
+    first, *others = points
+    for partner in others:
+        rest = tuple(i for i in others if i != partner)
+        yield from ([(first, partner), *pairs] for pairs in _pairings(rest))
+
+
+def _halves() -> Iterator[tuple[tuple[int, ...], tuple[int, ...]]]:
+    """The 10 ways to divide six points into two triples."""
+    for half in combinations(range(1, 6), 2):
+        yield (0, *half), tuple(i for i in range(1, 6) if i not in half)
+
+
+def _squared_differences(roots: Complexes) -> Complexes:
+    """(x_i − x_j)² of the six branch points, 1 where one of them is ∞; (6, 6)."""
+    if roots.shape not in ((3,), (5,), (6,)):
+        raise ValueError(f"a curve of genus 2 has 3, 5 or 6 finite roots here, not {roots.shape}")
+    finite = np.concatenate([[0, 1], roots]) if roots.size == 3 else roots
+    squares = np.ones((6, 6), dtype=np.complex128)
+    squares[: finite.size, : finite.size] = (finite[:, None] - finite) ** 2
+    if np.any(squares[np.triu_indices(6, 1)] == 0):
+        raise ValueError("two branch points coincide: the curve is singular")
+    return squares

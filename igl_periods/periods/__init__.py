@@ -1,0 +1,62 @@
+r"""From a surface to its period matrix, and how far it can be off.
+
+    V, F ─ complexes ▶ K ─ topology ▶ cochains ─ Delaunay flips ▶ K′, cochains′
+         ─ harmonic, or elements ▶ D ─ periods ▶ Π, bound
+
+Holomorphic forms are normalised by :math:`\oint_{a_l} \zeta_k = \delta_{kl}`; the period matrix is
+:math:`\Pi_{kl} = \oint_{b_l} \zeta_k`, symmetric with Im Π > 0.  It is the symplectic mean of the
+Dirichlet matrix D.  Since D ≥ D_exact and D_exact is symplectic,
+
+.. math:: J D^{-1} J^T \le D_{exact} \le D, \qquad
+          \| Y^{-1/2} (\Pi_{exact} - \Pi) Y^{-1/2} \|_2 \le d - 1,
+
+d the largest symplectic eigenvalue of D: the *bound*.  It is about the polyhedral surface whose
+triangles have the stored lengths.
+
+====================  =========================================================================
+``arguments``         surfaces and options as callers hand them over
+``memory_estimates``  what a computation will take, before it is begun
+``rounding``          what rounding can change between D and Π
+``matrix``            the period matrix, its estimates and its bound
+``certificate``       D and its allowance → the certified matrix
+``adaptive_degree``   the degree that meets a tolerance
+``computation``       the steps, one after the other
+``adaptive_mesh``     finer triangulations where the bound originates
+``quality``           what limits the accuracy of a mesh
+``extrapolation``     smooth surfaces from several meshes, uncertified
+``real_surfaces``     the real structure of a double
+====================  =========================================================================
+
+References
+----------
+Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 3.
+"""
+
+from .arguments import as_complex, check_options
+from .matrix import PeriodMatrix, reduced_if_feasible, siegel_reduced
+from .certificate import certified_period_matrix
+from .adaptive_degree import ToleranceWarning
+from .computation import period_matrix, period_matrix_from_weights
+from .adaptive_mesh import refined_period_matrix
+from .quality import MeshQuality, WIDE, mesh_quality
+from .extrapolation import Extrapolation, richardson
+from .real_surfaces import real_structure
+
+__all__ = [
+    "as_complex",
+    "check_options",
+    "PeriodMatrix",
+    "siegel_reduced",
+    "reduced_if_feasible",
+    "certified_period_matrix",
+    "ToleranceWarning",
+    "period_matrix",
+    "period_matrix_from_weights",
+    "refined_period_matrix",
+    "mesh_quality",
+    "MeshQuality",
+    "WIDE",
+    "Extrapolation",
+    "richardson",
+    "real_structure",
+]

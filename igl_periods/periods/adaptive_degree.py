@@ -1,0 +1,318 @@
+r"""Raising the degree, and splitting faces, until the certified bound meets a tolerance.
+
+The first attempt is piecewise linear, the next one has degree 2.  From there on the bound b falls
+like :math:`r^{-p}` in the degree p, with a ratio r > 1 that is measured as soon as there are two
+degrees to compare; so the degree that meets the tolerance can be predicted, and the degrees in
+between are skipped.  On thin triangles r is close to 1, and then it can be cheaper to divide those
+faces that hold most of the bound (:mod:`igl_periods.harmonic.excess`; Dörfler's marking): it costs
+few more unknowns and divides the bound by 2 at least.  Of the two ways to the tolerance the one
+with the least predicted cost is taken, in multiples of the last attempt:
+
+.. math::  (p' / p)^2 \quad\text{for the degree } p',
+           \qquad  \sum_{i=1}^{n} q^i \quad\text{for n rounds of division,}
+
+q the growth of the number of faces in a round.
+
+References
+----------
+Babuška, Suri, "The p and h-p versions of the finite element method" (1994).
+Dörfler, "A convergent adaptive algorithm for Poisson's equation" (1996).
+"""
+
+from __future__ import annotations
+
+import time
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from igl_periods.arrays import Floats, Ints
+from igl_periods.complexes import DeltaComplex, insert_barycentres, intrinsic_delaunay
+from igl_periods.elements import (
+    HighOrderForms,
+    count_unknowns,
+    dirichlet_matrix,
+    energy_excess,
+    high_order_forms,
+    rounding_allowance,
+    separate_cones,
+)
+from igl_periods.errors import ComplexError
+from igl_periods.harmonic import linear_energies
+from igl_periods.memory import available_memory
+from igl_periods.run_log import logger
+from igl_periods.symplectic import williamson_basis
+
+from .matrix import PeriodMatrix
+from .memory_estimates import high_order_memory, room_for_forms
+
+Certify = Callable[[Floats, float], PeriodMatrix]
+HIGHEST_DEGREE = 20
+# The ratio r of the bounds of successive degrees, before it is measured.
+_USUAL_RATIO = 12.0
+_LEAST_RATIO = 1.05
+# Each round of division treats faces with this part of the excess, and divides the bound by 2.
+_MARKED = 0.8
+_ROUND_RATIO = 2.0
+
+
+class ToleranceWarning(UserWarning):
+    """The tolerance was not met; the result is the best certified one."""
+
+
+@dataclass(frozen=True, eq=False)
+class Triangulation:
+    """A triangulation of the surface with the marking on it, before cone points are separated.
+
+    Attributes
+    ----------
+    complex : DeltaComplex
+    cochains : (2g, n_edges) sparse int
+        Closed.
+    basis : (2g, 2g) int
+        The matrix T for which T cochains is a canonical basis.
+    """
+
+    complex: DeltaComplex
+    cochains: csr_array
+    basis: Ints
+
+
+@dataclass(frozen=True, eq=False)
+class Attempt:
+    """A certified period matrix, and what it took.
+
+    Attributes
+    ----------
+    triangulation : Triangulation
+    degree : int
+    unknowns : int
+    seconds : float
+    result : PeriodMatrix
+    excess : (m,) float
+        The shares of the faces in Σ (d_i − 1).  Empty where it is not needed: at degree 1, and
+        where the tolerance is met.
+    """
+
+    triangulation: Triangulation
+    degree: int
+    unknowns: int
+    seconds: float
+    result: PeriodMatrix
+    excess: Floats
+
+    @property
+    def bound(self) -> float:
+        """The certified bound."""
+        assert self.result.bound is not None
+        return self.result.bound
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """What to try next, and the time it should take, in seconds."""
+
+    triangulation: Triangulation
+    degree: int
+    seconds: float
+
+
+@dataclass(frozen=True)
+class Limits:
+    """The most unknowns and bytes that an attempt may take; None where nobody set a limit."""
+
+    unknowns: int | None
+    memory: float | None
+
+
+def period_matrix_within(
+    triangulation: Triangulation,
+    certify: Certify,
+    tolerance: float,
+    max_unknowns: int | None = None,
+    max_memory: float | None = None,
+) -> PeriodMatrix:
+    """Compute a period matrix whose certified bound is at most ``tolerance``.
+
+    Each attempt is logged at level INFO to the logger ``igl_periods``: degree, faces, unknowns,
+    bound, seconds.
+
+    Parameters
+    ----------
+    triangulation : Triangulation
+        Of a closed, oriented, connected surface; best Delaunay.
+    certify : callable
+        Makes a period matrix of the Dirichlet matrix of forms in the classes of the cochains and
+        its rounding allowance.
+    tolerance : float
+        The bound to reach.
+    max_unknowns : int, optional
+        No attempt has more unknowns in its sparse system than this.
+    max_memory : float, optional
+        No attempt takes more bytes than this, by default more than are available.
+
+    Returns
+    -------
+    PeriodMatrix
+        The attempt of the least bound.
+
+    Warns
+    -----
+    ToleranceWarning
+        If the tolerance is not met: it is below what rounding allows, or meeting it takes more
+        unknowns, more memory or a higher degree than there may be.
+
+    Raises
+    ------
+    ValueError
+        If the tolerance is not positive.
+    """
+    if not tolerance > 0.0:
+        raise ValueError(f"tolerance = {tolerance}: a bound is always positive.")
+    limits = Limits(max_unknowns, max_memory)
+    attempts = [_linear_attempt(triangulation, certify, max_memory)]
+    while (best := min(attempts, key=lambda attempt: attempt.bound)).bound > tolerance:
+        plan = _next_plan(attempts, tolerance, limits)
+        outcome = _carried_out(plan, certify, tolerance) if isinstance(plan, Plan) else plan
+        if isinstance(outcome, str):
+            warnings.warn(
+                f"the bound is {best.bound:.2g}, not {tolerance:.2g} as wanted: {outcome}.",
+                ToleranceWarning,
+                stacklevel=3,
+            )
+            break
+        attempts.append(outcome)
+    return best.result
+
+
+def _linear_attempt(
+    triangulation: Triangulation, certify: Certify, max_memory: float | None
+) -> Attempt:
+    start = time.perf_counter()
+    K, cochains = triangulation.complex, triangulation.cochains
+    result = certify(*linear_energies(K, cochains, room_for_forms(K, max_memory)))
+    seconds = time.perf_counter() - start
+    return _logged(Attempt(triangulation, 1, K.n_vertices, seconds, result, np.zeros(0)))
+
+
+def _carried_out(plan: Plan, certify: Certify, tolerance: float) -> Attempt | str:
+    """The attempt as planned, or how it failed."""
+    start = time.perf_counter()
+    logger.info("degree %2d next, in about %.2g s", plan.degree, plan.seconds)
+    where = plan.triangulation
+    try:
+        forms = high_order_forms(where.complex, where.cochains, plan.degree)
+        D = dirichlet_matrix(forms)
+        result = certify(D, rounding_allowance(forms, D))
+    except ComplexError as error:
+        return f"degree {plan.degree} fails, {error}"
+    assert result.bound is not None
+    excess = _excess(forms, where, result) if result.bound > tolerance else np.zeros(0)
+    seconds = time.perf_counter() - start
+    return _logged(Attempt(where, plan.degree, len(forms.traces), seconds, result, excess))
+
+
+def _excess(forms: HighOrderForms, where: Triangulation, result: PeriodMatrix) -> Floats:
+    """The shares of the faces before cone points were separated."""
+    pairs = williamson_basis(result.dirichlet) @ where.basis
+    shares = energy_excess(forms, pairs).sum(axis=0)
+    return np.asarray(shares.reshape(where.complex.n_faces, -1).sum(axis=1))
+
+
+def _logged(attempt: Attempt) -> Attempt:
+    logger.info(
+        "degree %2d  %8d faces  %9d unknowns  bound %.1e  %7.2f s",
+        attempt.degree,
+        attempt.triangulation.complex.n_faces,
+        attempt.unknowns,
+        attempt.bound,
+        attempt.seconds,
+    )
+    return attempt
+
+
+def _next_plan(attempts: list[Attempt], tolerance: float, limits: Limits) -> Plan | str:
+    """The cheapest way to go on, or why there is none."""
+    last, rounding = attempts[-1], attempts[-1].result.rounding
+    if last.bound < 2.0 * rounding:
+        return f"rounding accounts for {rounding:.2g} of it"
+    if _stagnates(attempts):
+        return "neither a higher degree nor smaller faces lower it further"
+    target = max(tolerance, 1.2 * rounding)
+    plans = [_raised(attempts, target)] if last.degree < HIGHEST_DEGREE else []
+    if last.degree > 1:
+        plans.append(_divided(last, target))
+    reasons = []
+    for _, plan in sorted(plans, key=lambda costed: costed[0]):
+        reason = _unaffordable(plan, limits)
+        if reason is None:
+            return plan
+        reasons.append(reason)
+    return reasons[0]
+
+
+def _stagnates(attempts: list[Attempt]) -> bool:
+    """Whether neither of the last two attempts lowered the best bound by a quarter."""
+    bounds = [attempt.bound for attempt in attempts]
+    return len(bounds) > 3 and min(bounds[-2:]) > 0.75 * min(bounds[:-2])
+
+
+def _raised(attempts: list[Attempt], target: float) -> tuple[float, Plan]:
+    """The predicted cost of meeting the target by the degree alone, and the next step there."""
+    last = attempts[-1]
+    if last.degree == 1:
+        return 0.0, Plan(last.triangulation, 2, 8.0 * last.seconds)
+    ratio = _measured_ratio(attempts)
+    usual = ratio or _USUAL_RATIO
+    needed = max(int(np.ceil(np.log(last.bound / target) / np.log(usual))), 1)
+    step = min(needed, 2 if ratio is None else 6, HIGHEST_DEGREE - last.degree)
+    reached = last.degree + needed
+    cost = (reached / last.degree) ** 2 if reached <= HIGHEST_DEGREE else np.inf
+    degree = last.degree + step
+    seconds = last.seconds * (degree / last.degree) ** 2
+    return cost, Plan(last.triangulation, degree, seconds)
+
+
+def _measured_ratio(attempts: list[Attempt]) -> float | None:
+    """The ratio of the bounds of successive degrees, by the last two to be compared."""
+    for one, two in zip(attempts[-2::-1], attempts[:0:-1]):
+        if 1 < one.degree < two.degree:
+            change = _discretisation(one) / _discretisation(two)
+            return float(max(change ** (1.0 / (two.degree - one.degree)), _LEAST_RATIO))
+    return None
+
+
+def _discretisation(attempt: Attempt) -> float:
+    return max(attempt.bound - attempt.result.rounding, np.finfo(float).eps)
+
+
+def _divided(last: Attempt, target: float) -> tuple[float, Plan]:
+    """The predicted cost of meeting the target by division, and the first round of it."""
+    where = last.triangulation
+    order = np.argsort(-last.excess, kind="stable")
+    held = np.cumsum(last.excess[order])
+    marked = order[: 1 + int(np.searchsorted(held, _MARKED * held[-1]))]
+    finer = intrinsic_delaunay(*insert_barycentres(where.complex, where.cochains, marked))
+    separated, _ = separate_cones(*finer)
+    growth = count_unknowns(separated, last.degree) / last.unknowns
+    rounds = np.ceil(np.log(last.bound / target) / np.log(_ROUND_RATIO))
+    cost = float(np.sum(growth ** np.arange(1.0, rounds + 1.0)))
+    divided = Triangulation(*finer, where.basis)
+    return cost, Plan(divided, last.degree, growth * last.seconds)
+
+
+def _unaffordable(plan: Plan, limits: Limits) -> str | None:
+    """Why a plan is too large, if it is."""
+    K, cochains = separate_cones(plan.triangulation.complex, plan.triangulation.cochains)
+    what = f"degree {plan.degree} on {plan.triangulation.complex.n_faces} faces takes"
+    unknowns = count_unknowns(K, plan.degree)
+    if limits.unknowns is not None and unknowns > limits.unknowns:
+        return f"{what} {unknowns} unknowns, and {limits.unknowns} are the limit"
+    needed = high_order_memory(K, plan.degree, cochains.shape[0])
+    memory = available_memory() if limits.memory is None else limits.memory
+    if needed > memory:
+        return f"{what} about {needed / 1e9:.2g} GB of memory, and there are {memory / 1e9:.2g}"
+    return None

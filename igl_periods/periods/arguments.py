@@ -1,0 +1,74 @@
+"""Surfaces and options as callers hand them over, checked."""
+
+from __future__ import annotations
+
+from numbers import Real
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from igl_periods.arrays import Floats
+from igl_periods.complexes import DeltaComplex, check_equal_when_glued, checked_array
+from igl_periods.errors import ComplexError, MeshError
+from igl_periods.run_log import stage
+
+from .memory_estimates import check_faces
+
+_LARGEST_WEIGHT = 1e100
+
+
+def as_complex(surface: Any, F: ArrayLike | None = None) -> DeltaComplex:
+    """The Δ-complex of ``(V, F)`` or of a mesh object, or ``surface`` itself if it is one.
+
+    Mesh objects are Open3D's ``TriangleMesh`` and whatever else has ``vertices`` and ``triangles``
+    or ``faces``.
+    """
+    if isinstance(surface, DeltaComplex):
+        if F is not None:
+            raise MeshError("a DeltaComplex has its own faces: leave F away.")
+        return surface
+    if F is None and hasattr(surface, "vertices"):
+        faces = "triangles" if hasattr(surface, "triangles") else "faces"
+        surface, F = np.asarray(surface.vertices), getattr(surface, faces, None)
+    if F is None:
+        raise MeshError("faces are missing: call period_matrix(V, F), or period_matrix(K).")
+    check_faces(len(np.asarray(F)))
+    with stage("surface"):
+        return DeltaComplex.from_mesh(surface, np.asarray(F))
+
+
+def check_options(weights: str, degree: int, tolerance: float | None) -> None:
+    """Refuse options of :func:`period_matrix` that have no such value or contradict each other."""
+    if weights not in ("intrinsic", "extrinsic"):
+        raise ValueError(f'weights must be "intrinsic" or "extrinsic", not {weights!r}.')
+    if not (isinstance(degree, Real) and float(degree).is_integer() and degree >= 1):
+        raise ValueError(f"degree = {degree}: trial functions have degree 1 at least.")
+    if tolerance is not None and not tolerance > 0.0:
+        raise ValueError(f"tolerance = {tolerance}: a bound is always positive.")
+    if weights == "extrinsic" and (degree != 1 or tolerance is not None):
+        raise ValueError("extrinsic weights have degree 1 and no bound: leave both options away.")
+    if degree != 1 and tolerance is not None:
+        raise ValueError("a tolerance chooses the degree: leave one of the two away.")
+
+
+def edge_weights(K: DeltaComplex, rho: ArrayLike) -> Floats:
+    """Weights on half-edges, checked, as weights on edges; (n_edges,)."""
+    array = checked_array(rho, "rho", ComplexError)
+    if array.shape != K.twin.shape or array.dtype.kind not in "iuf":
+        raise ComplexError(
+            f"rho must be a real array of the shape of twin, {K.twin.shape}, not {array.shape} "
+            f"of {array.dtype}."
+        )
+    values = array.astype(np.float64)
+    if not np.isfinite(values).all():
+        raise ComplexError("rho has entries that are NaN or infinite.")
+    if np.abs(values).max() > _LARGEST_WEIGHT:
+        raise ComplexError(
+            f"rho reaches {np.abs(values).max():.3g}: energies up to {_LARGEST_WEIGHT:g} can be "
+            "computed. The weights of round triangles are of order 1."
+        )
+    check_equal_when_glued(values, K.twin, "weights")
+    weights = np.empty(K.n_edges)
+    weights[K.edge.ravel()] = values.ravel()
+    return weights

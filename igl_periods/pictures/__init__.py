@@ -1,0 +1,42 @@
+"""What a picture shows, and drawing it; textured meshes for other programs.
+
+A *scene* is made of arrays alone: coloured or textured triangles, tubes, points, a caption.  So
+what a picture shows is tested without drawing it; Open3D draws scenes, off screen or in a window,
+and is not imported before.
+
+===================  ==========================================================================
+``scenes``           cycles, checkerboard, density, quality, cut
+``tubes``            closed walks as smooth tubes
+``rendering``        scenes to pixels, by Open3D
+``textured_meshes``  OBJ with MTL and PNG, and GLB
+===================  ==========================================================================
+"""
+
+from .scenes import (
+    Scene,
+    checkerboard_scene,
+    cut_scene,
+    cycles_scene,
+    density_scene,
+    plain_scene,
+    quality_scene,
+)
+from .rendering import check_display, render, save, show, with_legend
+from .textured_meshes import write_glb, write_obj
+
+__all__ = [
+    "checkerboard_scene",
+    "cut_scene",
+    "cycles_scene",
+    "density_scene",
+    "plain_scene",
+    "quality_scene",
+    "Scene",
+    "check_display",
+    "render",
+    "save",
+    "show",
+    "with_legend",
+    "write_glb",
+    "write_obj",
+]

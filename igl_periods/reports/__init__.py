@@ -1,0 +1,23 @@
+"""Results in words, as JSON, and as a page.
+
+==================  ===========================================================================
+``words``           every sentence about a bound, a mesh, a parametrization: once
+``terminal_text``   what the command line prints
+``json_document``   the same for programs
+``page``            one self-contained HTML file, with pictures
+==================  ===========================================================================
+"""
+
+from .words import parametrization_in_words
+from .terminal_text import LARGEST_PRINTED, summary
+from .json_document import SCHEMA, result_to_json
+from .page import write_report
+
+__all__ = [
+    "parametrization_in_words",
+    "LARGEST_PRINTED",
+    "summary",
+    "result_to_json",
+    "SCHEMA",
+    "write_report",
+]

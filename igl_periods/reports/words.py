@@ -1,0 +1,114 @@
+"""Sentences about results: what a bound says, what limits a mesh, how good a map is.
+
+Each is written here once, for the terminal, the page and whoever else shows it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from igl_periods.differentials import Parametrization
+from igl_periods.periods import WIDE, MeshQuality, PeriodMatrix
+from igl_periods.wording import counted
+
+
+def parametrization_in_words(P: Parametrization) -> list[str]:
+    """How good a parametrization is: its distortion, its zeros and its reversed faces."""
+    median, tail = np.percentile(P.dilatation, [50.0, 99.0])
+    index, reversed_faces = P.index, int(np.count_nonzero(P.reversed_faces))
+    zeros, folds = index[index > 0], index[index < 0]
+    return [
+        f"Triangles are stretched by different factors in different directions, the ratio being "
+        f"{median:.3g} in the median and {tail:.3g} at the 99th percentile; 1 is conformal.",
+        f"Zeros: {zeros.size} vertices with indices adding up to {zeros.sum()}, "
+        f"{reversed_faces} reversed triangles, {folds.size} vertices with negative indices adding "
+        f"up to {folds.sum()}; together {index.sum() + reversed_faces} = 2g − 2.",
+    ]
+
+
+# Angles below this count as thin; a vertex above this angle slows the convergence down visibly.
+_THIN = np.radians(10.0)
+# A part of the bound worth a remark, and of the faces that counts as few.
+_REMARKABLE, _FEW = 0.25, 0.05
+
+
+def advice(quality: MeshQuality) -> list[str]:
+    """What limits the accuracy, and what to do about it; one sentence or two each."""
+    if quality.symplectic_eigenvalues.size == 0:
+        return ["The surface is a sphere: there are no periods, and nothing limits them."]
+    lines = [
+        f"The period matrix of this polyhedral surface is known to within {quality.bound:.2g}, "
+        "relative to its size, from linear functions on its triangles.",
+        *(_causes(quality) or [_no_cause(quality)]),
+    ]
+    if quality.half_of_the_bound < _FEW * quality.excess.size:
+        lines.append(
+            f"Half of the bound originates in {quality.half_of_the_bound} of "
+            f"{quality.excess.size} triangles: refining just those places will lower it."
+        )
+    if quality.flips:
+        lines.append(
+            f"{quality.non_delaunay_edges} of {quality.weights.size} edges of the mesh are not "
+            f"Delaunay; {counted(quality.flips, 'flip', 'flips')} mended that, at no cost to the "
+            "surface."
+        )
+    if quality.mollification:
+        lines.append(
+            f"Some triangles are degenerate: {quality.mollification:.3g} was added to the length "
+            "of every edge, and the bound is about that surface."
+        )
+    return lines
+
+
+def _causes(quality: MeshQuality) -> list[str]:
+    """Thin triangles and wide vertices, where they have a remarkable part in the bound."""
+    causes = []
+    thin = quality.delaunay_angles.min(axis=1) < _THIN
+    if quality.part(thin) > _REMARKABLE:
+        causes.append(
+            f"{quality.part(thin):.0%} of that comes from "
+            f"{counted(int(np.count_nonzero(thin)), 'triangle', 'triangles')} with an angle below "
+            "10° in every triangulation on these vertices. Vertices spread more evenly would do "
+            "better."
+        )
+    if quality.part(quality.near_cone) > _REMARKABLE:
+        theta = quality.cone_angles
+        wide = counted(int(np.count_nonzero(theta > WIDE)), "vertex", "vertices")
+        causes.append(
+            f"{quality.part(quality.near_cone):.0%} of that comes from around {wide} of total "
+            f"angle above 450°, the largest {np.degrees(theta.max()):.0f}°. There the bound falls "
+            f"only like h^{_rate(quality):.2g} with the size h of the triangles; local refinement, "
+            "or degree ≥ 2 with its conical elements, restores the full order."
+        )
+    return causes
+
+
+def _no_cause(quality: MeshQuality) -> str:
+    return (
+        "Neither thin triangles nor vertices of large total angle are to blame: the mesh is as "
+        "coarse as it is. Functions of higher degree lower the bound fastest; it falls like "
+        f"h^{_rate(quality):.2g} with the size h of the triangles of a finer triangulation of the "
+        "same surface."
+    )
+
+
+def _rate(quality: MeshQuality) -> float:
+    """The exponent of h with which the bound falls in the end."""
+    return min(2.0, 4.0 * np.pi / float(quality.cone_angles.max()))
+
+
+def bound_in_words(pm: PeriodMatrix) -> list[str]:
+    """What the bound of a period matrix says, and what it does not."""
+    bounds = pm.entry_bounds
+    if pm.bound is None or bounds is None:
+        return [
+            "There is no bound: these weights are not the energy of functions on the surface.",
+            "Intrinsic weights (the default) come with one.",
+        ]
+    return [
+        f"Π of this polyhedral surface is known to within {pm.bound:.2g}, relative to its size;",
+        f"no entry is off by more than {bounds.max():.2g}. This is a theorem, with an allowance "
+        "for rounding.",
+        "It is about the surface made of these flat triangles: how well they represent a smooth",
+        "surface is another question, which the bound does not answer.",
+    ]

@@ -1,0 +1,62 @@
+r"""The Siegel upper half-space: distance, the action of Sp(2g, Z), reduction.
+
+:math:`H_g = \{\Pi = X + iY : \Pi = \Pi^T,\ Y > 0\}`.  γ = [[a, b], [c, d]] in Sp(2g, Z) acts by
+:math:`\gamma \cdot \Pi = (a\Pi + b)(c\Pi + d)^{-1}`, as a change of the marking.  The invariant
+distance of two points is
+
+.. math:: d(\Pi_1, \Pi_2)^2 = \sum_{i \le g} \log^2 \lambda_i,
+
+:math:`\lambda_i \ge 1` the eigenvalues of :math:`G_1^{-1} G_2`, G as in
+:mod:`igl_periods.symplectic`.  *Siegel reduction* alternates a lattice reduction of Y (LLL, with a
+shortest vector first where the genus is small), a shift of X, and an inversion in one handle, until
+|Re Π| ≤ ½, Y is LLL-reduced and |Π_11| ≥ 1.  From genus 2 on that is **no canonical form**: two
+reduced matrices of one surface may differ, and are never compared entry by entry.
+
+====================  =========================================================================
+``half_space``        what is a Siegel point; distance
+``action``            γ·Π, accurately
+``balls``             Π in ball arithmetic
+``lll``               lattice reduction in integers; large lattices in floating point
+``lll_in_floats``     the latter
+``reducing_pairs``    pairwise reduction of a whole canonical basis
+``enumeration``       all short vectors of a lattice
+``reduction_steps``   the three steps
+``reduction``         their iteration
+====================  =========================================================================
+
+References
+----------
+Siegel, "Symplectic geometry" (1943).
+Deconinck, Heil, Bobenko, van Hoeij, Schmies, "Computing Riemann theta functions" (2004).
+"""
+
+from .half_space import (
+    check_same_genus,
+    check_siegel_point,
+    check_symplectic,
+    log_eigenvalues,
+    siegel_distance,
+    siegel_transform,
+)
+from .balls import ARRAY_ERROR, PRECISION, ball_matrix, to_flint
+from .lll import lll_basis
+from .enumeration import short_vectors
+from .reduction import SIEGEL_GENUS_LIMIT, SiegelReduction, siegel_reduce
+
+__all__ = [
+    "check_same_genus",
+    "check_siegel_point",
+    "check_symplectic",
+    "log_eigenvalues",
+    "siegel_distance",
+    "siegel_transform",
+    "ARRAY_ERROR",
+    "ball_matrix",
+    "PRECISION",
+    "to_flint",
+    "lll_basis",
+    "short_vectors",
+    "SIEGEL_GENUS_LIMIT",
+    "siegel_reduce",
+    "SiegelReduction",
+]

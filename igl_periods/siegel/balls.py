@@ -1,0 +1,48 @@
+"""Period matrices in ball arithmetic: entries with rigorous radii, for python-flint."""
+
+from __future__ import annotations
+
+import flint
+import numpy as np
+from numpy.typing import ArrayLike
+
+from igl_periods.arrays import Complexes, Floats
+
+from .half_space import check_siegel_point
+
+PRECISION = 96
+# What a plain array is taken to be right to, relative to √(Y_ii Y_jj).
+ARRAY_ERROR = 1e-8
+
+
+def to_flint(Pi: ArrayLike) -> flint.acb_mat:
+    """The period matrix as a matrix of complex balls, for python-flint.
+
+    Parameters
+    ----------
+    Pi : (g, g) array-like or PeriodMatrix
+        The balls of a ``PeriodMatrix`` with a certificate contain the period matrix of the
+        polyhedral surface; those of an array are points.
+
+    Raises
+    ------
+    NotASiegelPointError
+        If Π is no point of the Siegel upper half-space.
+    """
+    matrix = check_siegel_point(Pi)
+    bounds = getattr(Pi, "entry_bounds", None)
+    return ball_matrix(matrix, np.zeros(matrix.shape) if bounds is None else bounds)
+
+
+def ball_matrix(matrix: Complexes, radius: Floats) -> flint.acb_mat:
+    """The matrix of balls with these centres and radii."""
+    rows = zip(matrix.tolist(), radius.tolist(), strict=True)
+    return flint.acb_mat(
+        [
+            [
+                flint.acb(flint.arb(z.real, r), flint.arb(z.imag, r))
+                for z, r in zip(*row, strict=True)
+            ]
+            for row in rows
+        ]
+    )

@@ -1,0 +1,189 @@
+r"""The Siegel upper half-space, its modular group and its metric.
+
+The Siegel upper half-space of genus g holds the symmetric complex matrices Π = X + iY with Y
+positive definite.  The modular group Sp(2g, Z) acts on it by
+
+.. math:: \gamma \cdot \Pi = (a \Pi + b)(c \Pi + d)^{-1}, \qquad
+          \gamma = \begin{pmatrix} a & b \\ c & d \end{pmatrix},
+
+and two matrices in one orbit belong to the same Riemann surface with two markings.  Siegel's
+distance is invariant under the action: with λ_i ≥ 1 the eigenvalues of D₁⁻¹ D₂ (D the Dirichlet
+matrices), :math:`d^2 = \sum_{i \le g} \log^2 \lambda_i`.
+
+References
+----------
+Siegel, "Symplectic geometry" (1943).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from igl_periods.arrays import Complexes, Floats, Ints
+from igl_periods.errors import NotASiegelPointError
+from igl_periods.symplectic import is_symplectic
+
+from .action import moebius
+
+# Entries may differ from their mirror image by this much, relative to the largest entry.
+_ASYMMETRY = 1e-8
+
+
+def check_siegel_point(Pi: ArrayLike) -> Complexes:
+    """Return Π as a symmetric complex array, or raise if it is no point of the half-space.
+
+    Parameters
+    ----------
+    Pi : (g, g) array-like
+        Or an object that ``numpy.asarray`` turns into one, such as a ``PeriodMatrix``.
+
+    Raises
+    ------
+    NotASiegelPointError
+        If Π is not square, not finite, not symmetric (to 1e-8 of its largest entry), or Im Π is
+        not positive definite.
+    """
+    matrix = np.array(np.asarray(Pi), dtype=np.complex128)
+    if matrix.ndim != 2 or matrix.shape[0] != matrix.shape[1]:
+        raise NotASiegelPointError(f"a period matrix is square, but this has shape {matrix.shape}")
+    if not np.isfinite(matrix).all():
+        bad = np.argwhere(~np.isfinite(matrix))
+        raise NotASiegelPointError(
+            f"the period matrix has {len(bad)} entries that are not finite, the first at "
+            f"{tuple(int(i) for i in bad[0])}"
+        )
+    if matrix.size:
+        _check_symmetry(matrix)
+        _check_positivity(matrix.imag)
+    return 0.5 * (matrix + matrix.T)
+
+
+def _check_symmetry(matrix: Complexes) -> None:
+    asymmetry = float(np.abs(matrix - matrix.T).max())
+    allowed = _ASYMMETRY * float(np.abs(matrix).max())
+    if asymmetry > allowed:
+        raise NotASiegelPointError(
+            f"the period matrix is not symmetric: mirrored entries differ by up to {asymmetry:.3g} "
+            f"(allowed: {allowed:.3g}). The primal and the dual estimate are not symmetric in "
+            "general; the symplectic mean is."
+        )
+
+
+def _check_positivity(Y: Floats) -> None:
+    try:
+        np.linalg.cholesky(0.5 * (Y + Y.T))
+    except np.linalg.LinAlgError as error:
+        least = float(np.linalg.eigvalsh(0.5 * (Y + Y.T))[0])
+        raise NotASiegelPointError(
+            f"the imaginary part is not positive definite: its least eigenvalue is {least:.3g} "
+            f"(largest entry {float(np.abs(Y).max()):.3g}). Perhaps a- and b-periods are "
+            "interchanged, or the orientation is reversed."
+        ) from error
+
+
+def check_same_genus(Pi1: ArrayLike, Pi2: ArrayLike) -> tuple[Complexes, Complexes]:
+    """Both matrices, checked; ValueError if their genera differ."""
+    one, two = check_siegel_point(Pi1), check_siegel_point(Pi2)
+    if len(one) != len(two):
+        raise ValueError(f"period matrices of different genus, {len(one)} and {len(two)}")
+    return one, two
+
+
+def siegel_transform(gamma: ArrayLike, Pi: ArrayLike) -> Complexes:
+    """The Möbius action γ · Π = (a Π + b)(c Π + d)⁻¹ of Sp(2g, Z).
+
+    Computed from the given floating-point Π with as many digits as it needs
+    (:mod:`igl_periods.siegel.action`): every entry is right to rounding, however large γ is.
+
+    Parameters
+    ----------
+    gamma : (2g, 2g) array-like of int
+        ``[[a, b], [c, d]]``, symplectic: γ J γᵀ = J.
+    Pi : (g, g) array-like or PeriodMatrix
+
+    Returns
+    -------
+    (g, g) complex
+        Symmetric, with positive definite imaginary part.
+
+    Raises
+    ------
+    ValueError
+        If γ is not integer, has another size than Π asks for, or is not symplectic (exactly).
+    NotASiegelPointError
+        If Π is no point of the Siegel upper half-space.
+
+    Examples
+    --------
+    >>> siegel_transform([[0, -1], [1, 0]], [[2j]])
+    array([[0.+0.5j]])
+    """
+    point = check_siegel_point(Pi)
+    return moebius(check_symplectic(gamma, len(point)), point)
+
+
+def check_symplectic(gamma: ArrayLike, g: int) -> Ints:
+    """Return γ as an int64 array, or raise ValueError unless it lies in Sp(2g, Z)."""
+    given = np.asarray(gamma)
+    if given.shape != (2 * g, 2 * g):
+        raise ValueError(
+            f"a modular transformation in genus {g} has shape {(2 * g, 2 * g)}, not {given.shape}"
+        )
+    matrix = given.astype(np.int64)
+    if not np.array_equal(matrix, given):
+        raise ValueError("a modular transformation has integer entries, this matrix has others")
+    if not is_symplectic(matrix):
+        raise ValueError(
+            "the matrix is not symplectic: γ J γᵀ differs from J = [[0, 1], [-1, 0]]. (Matrices "
+            "that act on forms or cycles in another order are other conjugates of γ.)"
+        )
+    return matrix
+
+
+def siegel_distance(Pi1: ArrayLike, Pi2: ArrayLike) -> float:
+    r"""Siegel's distance of two period matrices, invariant under Sp(2g, R).
+
+    :math:`d^2 = \sum_{i \le g} \log^2 \lambda_i`, where λ_i ≥ 1 and 1/λ_i are the eigenvalues
+    of D₁⁻¹ D₂.  For g = 1 it is the hyperbolic distance.  It is computed from the generalised
+    cross-ratio: a transformation takes Π₁ to i and Π₂ to W = i + Δ, the Cayley transform W → Z =
+    Δ (Δ + 2i)⁻¹ takes that to the disk, and the singular values of Z are tanh(½ log λ_i).  Hence
+    nearby points are as accurate as their difference Π₂ − Π₁.
+
+    Parameters
+    ----------
+    Pi1, Pi2 : (g, g) array-like or PeriodMatrix
+
+    Raises
+    ------
+    NotASiegelPointError
+        If one of them is no point of the Siegel upper half-space.
+    ValueError
+        If they have different genus.
+
+    References
+    ----------
+    Siegel, "Symplectic geometry" (1943), section 2.
+
+    Examples
+    --------
+    >>> round(siegel_distance([[1j]], [[2j]]), 12)  # log 2
+    0.69314718056
+    """
+    return float(np.linalg.norm(log_eigenvalues(*check_same_genus(Pi1, Pi2))))
+
+
+def log_eigenvalues(one: Complexes, two: Complexes) -> Floats:
+    """The log λ_i ≥ 0 of two points of the half-space, increasing; (g,).
+
+    Computed as described in :func:`siegel_distance`.
+    """
+    L = np.linalg.cholesky(one.imag)
+    difference = np.linalg.solve(L, np.linalg.solve(L, two - one).T)
+    M = np.linalg.solve(L, np.linalg.cholesky(two.imag))
+    denominator = np.linalg.inv(difference + 2j * np.eye(len(one)))
+    # tanh and 1/cosh of half the logarithms; neither alone is accurate both near and far.
+    tanh = np.linalg.svd(difference @ denominator, compute_uv=False)
+    sech = np.linalg.svd(2 * M.T @ denominator, compute_uv=False)
+    logarithms: Floats = 2 * np.arcsinh(tanh / sech[::-1])
+    return logarithms[::-1]

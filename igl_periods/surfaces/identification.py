@@ -1,0 +1,206 @@
+r"""Which named surface is it?
+
+Period matrices are compared with those of the catalogue up to Sp(2g, Z), by Siegel's distance and
+by the *deviation* max \|log λ\|, λ the eigenvalues of D₁⁻¹ D₂, which is a distance too.  A period
+matrix with the certificate ``bound`` is known within the deviation t = log(1 + bound), and
+
+* if no γ in Sp(2g, Z) brings an exact matrix within t, then the polyhedral surface is *proved* to
+  be another one;
+* if one does, nothing is proved: close is not equal.
+
+A mesh of a smooth surface is another surface.  How far the two may be apart no period matrix tells;
+it has to be stated, as a deviation.
+
+References
+----------
+Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 4.3, where the Lawson
+surface ξ_{2,1} was recognised in this way.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import overload
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from igl_periods.arrays import Complexes, Ints
+from igl_periods.moduli import (
+    ARRAY_TOLERANCE,
+    LARGEST_TOLERANCE,
+    logarithms_found,
+    symplectic_isomorphisms,
+)
+from igl_periods.siegel import check_siegel_point
+
+from .named_surface import NamedSurface
+from .named_surfaces import catalogue
+
+# Surfaces up to this deviation (beyond the certificate) are listed where no mesh error is stated.
+_NEIGHBOURHOOD = 0.1
+_LARGEST_RADIUS = 0.999 * LARGEST_TOLERANCE
+_EXACT_ERROR = 1e-12
+
+
+@dataclass(frozen=True, eq=False)
+class Match:
+    r"""A named surface near a period matrix Π.
+
+    Attributes
+    ----------
+    surface : NamedSurface
+    distance : float
+        Siegel's distance of γ · Π and the exact matrix, the least over Sp(2g, Z).
+    deviation : float
+        The least, over Sp(2g, Z), of the largest \|log λ\|.
+    gamma : (2g, 2g) int
+        γ · Π is close to ``surface.matrix``.
+    claim : str
+        What may be said, in words.
+    """
+
+    surface: NamedSurface
+    distance: float
+    deviation: float
+    gamma: Ints
+    claim: str
+
+
+@dataclass(frozen=True, eq=False)
+class Identification(Sequence[Match]):
+    """The named surfaces near a period matrix, nearest first.
+
+    Attributes
+    ----------
+    matches : tuple of Match
+    genus : int
+    compared : tuple of str
+        Names of all surfaces that were compared.
+    undecided : tuple of str
+        Those for which the search was given up.
+    radius : float
+        The deviation up to which surfaces are listed.
+    """
+
+    matches: tuple[Match, ...]
+    genus: int
+    compared: tuple[str, ...]
+    undecided: tuple[str, ...]
+    radius: float
+
+    def __len__(self) -> int:
+        return len(self.matches)
+
+    @overload
+    def __getitem__(self, index: int) -> Match: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Match, ...]: ...
+    def __getitem__(self, index: int | slice) -> Match | tuple[Match, ...]:
+        return self.matches[index]
+
+    def __str__(self) -> str:
+        lines = [f"{match.surface.name}: {match.claim}" for match in self.matches]
+        n_decided = len(self.compared) - len(self.undecided)
+        if not lines and n_decided:
+            lines = [
+                f"none of {n_decided} named surfaces of genus {self.genus} is within "
+                f"{self.radius:.2g}"
+            ]
+        lines += [f"{name}: undecided, the search was given up" for name in self.undecided]
+        return "\n".join(lines)
+
+
+def identify(Pi: ArrayLike, tolerance: float | None = None) -> Identification:
+    """Find the named surfaces whose exact period matrices are near Π.
+
+    Parameters
+    ----------
+    Pi : (g, g) array-like or PeriodMatrix
+        With a certificate, Π is known within log(1 + bound); a plain array is taken to be right to
+        1e-8.
+    tolerance : float, optional
+        How far the polyhedral surface may be from the surface that is meant (the error of the
+        mesh), as a deviation.  If it is not stated, claims are about the polyhedral surface only.
+        Surfaces within 0.1 beyond the certificate are listed anyway.
+
+    Returns
+    -------
+    Identification
+
+    Raises
+    ------
+    NotASiegelPointError
+        If Π is no point of the Siegel upper half-space.
+    ValueError
+        If the tolerance is negative, or with the certificate's too large to separate anything.
+
+    Examples
+    --------
+    >>> print(identify([[-0.5 + 0.5j]]))  # doctest: +ELLIPSIS
+    square torus: within 0: consistent with the accuracy of the array (1e-08); ...
+    """
+    matrix = check_siegel_point(Pi)
+    if tolerance is not None and not tolerance >= 0:
+        raise ValueError(f"the tolerance must not be negative, but it is {tolerance}")
+    known = _Knowledge.of(Pi, tolerance)
+    surfaces = catalogue(len(matrix))
+    matches, undecided = [], []
+    for surface in surfaces:
+        found = symplectic_isomorphisms(matrix, surface.matrix, known.radius)
+        if found.gave_up:
+            undecided.append(surface.name)
+        elif found:
+            matches.append(_nearest(matrix, surface, found, known))
+    matches.sort(key=lambda match: match.distance)
+    names = tuple(surface.name for surface in surfaces)
+    return Identification(tuple(matches), len(matrix), names, tuple(undecided), known.radius)
+
+
+def _nearest(
+    matrix: Complexes, surface: NamedSurface, found: Sequence[Ints], known: _Knowledge
+) -> Match:
+    logarithms = logarithms_found(found, matrix, surface.matrix)
+    distances = np.linalg.norm(logarithms, axis=1)
+    nearest, distance = int(np.argmin(distances)), float(distances.min())
+    deviation = float(np.max(logarithms, axis=1).min())
+    return Match(surface, distance, deviation, found[nearest], known.claim(distance, deviation))
+
+
+@dataclass(frozen=True)
+class _Knowledge:
+    """What is known about Π: its deviation from the polyhedral surface, and that of the mesh."""
+
+    own: float | None
+    certified: bool
+    mesh: float | None
+    radius: float
+
+    @classmethod
+    def of(cls, Pi: ArrayLike, mesh: float | None) -> _Knowledge:
+        own: float | None = ARRAY_TOLERANCE
+        certified = getattr(Pi, "bound", None) is not None
+        if hasattr(Pi, "bound"):
+            own = math.log1p(Pi.bound) + _EXACT_ERROR if certified else None
+        stated = (own or 0.0) + (mesh or 0.0)
+        shown = min((own or 0.0) + _NEIGHBOURHOOD, _LARGEST_RADIUS)
+        return cls(own, certified, mesh, max(stated, shown))
+
+    def claim(self, distance: float, deviation: float) -> str:
+        return f"within {distance:.2g}: {self._judgement(deviation)}"
+
+    def _judgement(self, deviation: float) -> str:
+        if self.own is not None and deviation <= self.own:
+            what = "the certificate" if self.certified else "the accuracy of the array"
+            return f"consistent with {what} ({self.own:.2g}); this does not prove it"
+        other = "the polyhedral surface is proved to be another one" if self.certified else ""
+        if self.mesh is None:
+            return other or "near; no error of the mesh is stated"
+        consistent = deviation <= (self.own or 0.0) + self.mesh
+        judgement = (
+            f"{'consistent' if consistent else 'not consistent'} with the stated error of the mesh "
+            f"({self.mesh:.2g}){'; this does not prove it' if consistent else ''}"
+        )
+        return f"{judgement}; {other}" if other else judgement

@@ -1,0 +1,38 @@
+"""A surface with a name, and its exact period matrix in some marking."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+from igl_periods.arrays import Complexes
+from igl_periods.siegel import check_siegel_point
+
+
+@dataclass(frozen=True, eq=False)
+class NamedSurface:
+    """A Riemann surface with an exact period matrix.
+
+    Attributes
+    ----------
+    name : str
+    aliases : tuple of str
+        Other names of the same Riemann surface.
+    genus : int
+    source : str
+        Where the period matrix comes from.
+    """
+
+    name: str
+    aliases: tuple[str, ...]
+    genus: int
+    source: str
+    _exact: Callable[[], Complexes]
+
+    @cached_property
+    def matrix(self) -> Complexes:
+        """The period matrix, in some marking; (g, g) complex."""
+        matrix = check_siegel_point(self._exact())
+        matrix.flags.writeable = False
+        return matrix

@@ -1,0 +1,191 @@
+r"""Named surfaces with exact period matrices.
+
+An entry stands for a Riemann surface and lists all the names under which it occurs.  Beside single
+surfaces there are two families in every genus,
+
+* the curves y² = xⁿ − 1, of genus g = ⌊(n − 1)/2⌋;
+* Lawson's minimal surfaces ξ_{m,k}, of genus mk; ξ_{m,1} is y² = x^{2m+2} − 1.
+
+The rotation x ↦ ζx, ζ = e^{2πi/n}, of y² = xⁿ − 1 moves a closed curve round two neighbouring
+branch points to the next one; 2g of these curves c_0, …, c_{2g−1} are a basis of homology with
+c_k · c_{k+1} = 1 and no other intersections, and the form x^{j−1} dx/y, multiplied by ζ^j under the
+rotation, has the periods const · ζ^{jk}.  So Π = A⁻¹B follows without any integral.
+
+References
+----------
+Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 4.
+Bujalance, Costa, Gamboa, Riera, "Period matrices of Accola-Maclachlan and Kulkarni surfaces"
+(2000).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from igl_periods.arrays import Complexes
+from igl_periods.symplectic import integer_symplectic_basis
+
+from .named_surface import NamedSurface
+
+
+def catalogue(genus: int) -> list[NamedSurface]:
+    """All named surfaces of a genus; no two of them are conformally equivalent.
+
+    Examples
+    --------
+    >>> [surface.name for surface in catalogue(2)]
+    ['Omega_1', 'Bolza curve', 'y^2 = x^5 - 1', 'Lawson xi_{2,1}']
+    """
+    single = [surface for surface in _SINGLE if surface.genus == genus]
+    return single + list(_families(genus))
+
+
+def binomial_period_matrix(n: int) -> Complexes:
+    """The period matrix of y² = xⁿ − 1, of genus ⌊(n − 1)/2⌋.
+
+    Raises
+    ------
+    ValueError
+        If n < 3.
+
+    Examples
+    --------
+    >>> binomial_period_matrix(4).round(12)
+    array([[0.+1.j]])
+    """
+    if n < 3:
+        raise ValueError(f"y^2 = x^{n} - 1 is rational: take n >= 3")
+    g = (n - 1) // 2
+    intersections = np.eye(2 * g, k=1, dtype=np.int64) - np.eye(2 * g, k=-1, dtype=np.int64)
+    exponents = np.outer(np.arange(1, g + 1), np.arange(2 * g))
+    periods = np.exp(2j * np.pi * (exponents % n) / n)
+    a, b = np.hsplit(periods @ integer_symplectic_basis(intersections).T, 2)
+    Pi = np.asarray(np.linalg.solve(a, b), dtype=np.complex128)
+    return 0.5 * (Pi + Pi.T)
+
+
+def _families(genus: int) -> Iterator[NamedSurface]:
+    if genus >= 2:
+        yield _binomial(2 * genus + 1)
+        yield _binomial(2 * genus + 2)
+    for k in range(2, genus + 1):
+        if genus % k == 0 and genus // k >= k:
+            yield _lawson(genus // k, k)
+
+
+def _binomial(n: int) -> NamedSurface:
+    genus, equation = (n - 1) // 2, f"y^2 = x^{n} - 1"
+    names = [equation] if n % 2 else [f"Lawson xi_{{{genus},1}}", equation]
+    if n == 6:
+        names += ["Omega_3", "six-square surface {4,6}"]
+    return NamedSurface(
+        names[0],
+        tuple(names[1:]),
+        genus,
+        "periods are powers of roots of unity; Bujalance, Costa, Gamboa, Riera (2000)",
+        lambda: binomial_period_matrix(n),
+    )
+
+
+def _lawson(m: int, k: int) -> NamedSurface:
+    def exact() -> Complexes:
+        from .lawson.periods import lawson_period_matrix
+
+        return lawson_period_matrix(m, k)
+
+    curve = f"y^{k + 1} = (x^{m + 1} - 1)/(x^{m + 1} + 1)"
+    source = "periods as beta and hypergeometric functions; Lawson (1970) for the surface"
+    return NamedSurface(f"Lawson xi_{{{m},{k}}}", (curve,), m * k, source, exact)
+
+
+def _square_tiled(name: str) -> Callable[[], Complexes]:
+    def exact() -> Complexes:
+        from .square_tiled import square_tiled_period_matrix
+
+        return square_tiled_period_matrix(name)
+
+    return exact
+
+
+def _regular_map(name: str) -> Callable[[], Complexes]:
+    def exact() -> Complexes:
+        from .regular_maps import regular_map_period_matrix
+
+        return regular_map_period_matrix(name)
+
+    return exact
+
+
+def _wente() -> Complexes:
+    from .wente import wente_modulus
+
+    return np.array([[wente_modulus()]])
+
+
+_SINGLE = (
+    NamedSurface(
+        "square torus",
+        ("y^2 = x^3 - x", "y^2 = x^4 - 1", "Clifford torus", "Lawson xi_{1,1}"),
+        1,
+        "tau = i",
+        lambda: np.array([[1j]]),
+    ),
+    NamedSurface(
+        "hexagonal torus",
+        ("y^2 = x^3 - 1", "y^2 = x^3 + 1", "Fermat cubic"),
+        1,
+        "tau = exp(i pi/3)",
+        lambda: np.array([[0.5 + 0.5j * np.sqrt(3)]]),
+    ),
+    NamedSurface(
+        "Wente torus",
+        ("three-lobed torus of constant mean curvature",),
+        1,
+        "elliptic integrals; Abresch (1987), Walter (1987)",
+        _wente,
+    ),
+    NamedSurface(
+        "Omega_1",
+        ("L-shaped origami of three squares",),
+        2,
+        "Bobenko, Mercat, Schmies, section 4.1, after Silhol",
+        _square_tiled("omega_1"),
+    ),
+    NamedSurface(
+        "Bolza curve",
+        ("y^2 = x^5 - x", "Omega_2", "regular map {3,8} of genus 2", "four-square surface {4,8}"),
+        2,
+        "Bobenko, Mercat, Schmies, section 4.1, after Silhol; Bolza (1887)",
+        _square_tiled("omega_2"),
+    ),
+    NamedSurface(
+        "Klein quartic",
+        ("x^3 y + y^3 z + z^3 x = 0", "regular map {3,7}", "Hurwitz surface of genus 3"),
+        3,
+        "Braden, Northover (2010)",
+        _regular_map("klein"),
+    ),
+    NamedSurface(
+        "Fermat quartic",
+        ("x^4 + y^4 + z^4 = 0", "Dyck surface", "regular map {3,8} of genus 3"),
+        3,
+        "Gaussian multiples of K(1/sqrt 2)/2; recognised in the periods of abelfunctions",
+        _regular_map("fermat"),
+    ),
+    NamedSurface(
+        "Schwarz P surface",
+        ("y^2 = x^8 + 14 x^4 + 1", "Schwarz D surface", "gyroid", "regular map {4,6} of genus 3"),
+        3,
+        "Gauss-Chebyshev quadrature, 15 digits",
+        _regular_map("schwarz_p"),
+    ),
+    NamedSurface(
+        "Bring curve",
+        ("sum x_i = sum x_i^2 = sum x_i^3 = 0", "regular map {4,5} of genus 4"),
+        4,
+        "Braden, Northover (2012), after Riera, Rodriguez (1992)",
+        _regular_map("bring"),
+    ),
+)
