@@ -30,8 +30,8 @@ from functools import cached_property
 
 import flint
 import numpy as np
-from numpy.typing import NDArray
 
+from igl_periods.arrays import Complexes, Floats, Ints
 from igl_periods.errors import ComplexError
 
 from .delaunay_moves import fan
@@ -40,9 +40,6 @@ from .triangulation import Triangulation, following
 
 Arb = flint.arb
 Acb = flint.acb
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Ints = NDArray[np.int64]
 
 _FRACTIONS = 2**20
 _LEAST_FRACTION = 0.02

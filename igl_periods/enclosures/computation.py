@@ -18,15 +18,16 @@ from numbers import Real
 
 import flint
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
-from igl_periods.adaptive import ToleranceWarning
-from igl_periods.delta_complex import DeltaComplex
+from igl_periods.arrays import Ints
+from igl_periods.complexes import DeltaComplex
 from igl_periods.errors import ComplexError, MemoryLimitError
-from igl_periods.homology import cochains_and_basis
 from igl_periods.memory import available_memory
-from igl_periods.stages import logger, stage
+from igl_periods.periods import ToleranceWarning
+from igl_periods.run_log import logger, stage
+from igl_periods.topology import cochains_and_basis
 
 from .cells import Cells, cells_of
 from .conforming_forms import dirichlet_enclosure
@@ -41,8 +42,6 @@ from .series import Series
 from .surface_choice import surface_and_lengths
 from .trial_functions import trial_functions
 from .triangulation import Triangulation
-
-Ints = NDArray[np.int64]
 
 MOST_DIGITS = 1000
 """More digits than this are refused: they would take days."""

@@ -30,7 +30,7 @@ from collections.abc import Iterator
 
 import flint
 
-from igl_periods.stages import progress
+from igl_periods.run_log import progress
 
 from .quadrature import ChordBounds, ChordRule, gauss_balls, shape
 from .series import PowerTables, Series, face_trace, star_traces

@@ -10,12 +10,10 @@ as many digits as the one before.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+
+from igl_periods.arrays import Floats, Ints
 
 from .cells import Cells
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 _GROWTH = 2.2
 _FIRST_GOAL = 7.0
@@ -60,7 +58,7 @@ def _extrapolated(a: Floats, kappa: float, residual: float, goal: float) -> int:
         envelope = np.maximum.accumulate(np.log10(a)[::-1])[::-1]
     known = np.flatnonzero(envelope > residual - 0.5)
     last = int(known[-1]) if known.size else 0
-    first = last // 3
+    first = last // 2
     rate = _RATE * kappa
     if last > first:
         rate = (envelope[first] - envelope[last]) / (last - first)
@@ -75,4 +73,5 @@ def _extrapolated(a: Floats, kappa: float, residual: float, goal: float) -> int:
 def node_counts(cells: Cells, size: Ints) -> Ints:
     """Numbers of nodes of the interfaces, for these numbers of functions."""
     radial = size * cells.exponents
-    return np.ceil(0.7 * radial[cells.cell].max(axis=1) + 8.0).astype(np.int64)
+    # In steps of 4, so that many interfaces share their nodes.
+    return 4 * np.ceil((0.7 * radial[cells.cell].max(axis=1) + 8.0) / 4.0).astype(np.int64)

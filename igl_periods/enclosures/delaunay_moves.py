@@ -13,7 +13,7 @@ from collections import deque
 
 import numpy as np
 
-from igl_periods.triangles import cotangents
+from igl_periods.complexes import cotangents
 
 from .triangulation import Triangulation, following
 

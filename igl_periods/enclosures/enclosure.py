@@ -24,13 +24,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
-from igl_periods.delta_complex import DeltaComplex
-from igl_periods.half_space import check_symplectic
-from igl_periods.integer_matrices import product
+from igl_periods.complexes import DeltaComplex
 from igl_periods.periods import PeriodMatrix
-from igl_periods.rounding import LEAST_ALLOWANCE, combined, congruence
-from igl_periods.siegel import SIEGEL_GENUS_LIMIT, siegel_reduce
-from igl_periods.symplectic import form_action
+from igl_periods.periods.rounding import LEAST_ALLOWANCE, combined, congruence
+from igl_periods.siegel import SIEGEL_GENUS_LIMIT, check_symplectic, siegel_reduce
+from igl_periods.symplectic import form_action, product
 
 from .exact_arithmetic import (
     ball_from_text,

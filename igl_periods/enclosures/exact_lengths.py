@@ -23,10 +23,10 @@ import flint
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from igl_periods.delta_complex import DeltaComplex
+from igl_periods.arrays import Ints
+from igl_periods.complexes import DeltaComplex
 from igl_periods.errors import ComplexError
 
-Ints = NDArray[np.int64]
 ExactLengths = Callable[[int], Sequence[flint.arb]]
 
 _AGREEMENT = 1e-6

@@ -13,13 +13,10 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
+
+from igl_periods.arrays import Complexes, Floats, Ints
 
 from .cells import Cells
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Ints = NDArray[np.int64]
 
 _UNIT = 2.0**-52
 
@@ -88,6 +85,15 @@ class InterfaceNodes:
         """The side ``2 i + side`` that each row belongs to."""
         side = np.argsort(self.row.ravel())
         return np.repeat(side, np.repeat(self.n_nodes, 2)[side])
+
+    @cached_property
+    def opposite(self) -> Ints:
+        """The row of the same point on the other side of its interface."""
+        opposite = np.empty(self.n_rows, dtype=np.int64)
+        for n, rows in self._sides_by_count():
+            here, there = (rows[:, side, None] + np.arange(n) for side in range(2))
+            opposite[here], opposite[there] = there, here
+        return opposite
 
     @cached_property
     def coordinates(self) -> tuple[Complexes, Complexes]:

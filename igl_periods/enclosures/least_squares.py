@@ -15,21 +15,17 @@ Nothing here is rigorous, and nothing needs to be: any coefficients give closed 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import scipy.linalg
-from numpy.typing import NDArray
-from scipy.linalg import solve_triangular
 from scipy.sparse import csc_matrix
-from sksparse.cholmod import analyze
+
+from igl_periods.arrays import Complexes, Floats
+from igl_periods.harmonic import CholeskyFactor, factor, solve
 
 from .trial_functions import TrialFunctions
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Ints = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,17 +35,15 @@ class LeastSquares:
     Attributes
     ----------
     trial : TrialFunctions
-    roots : list of float
-        The upper triangular factor R_c of each cell.
-    order : (n_cells,) int
-        The order of the cells in the factor.
-    factor : sksparse.cholmod.Factor
+    inverses : list of float
+        R_c⁻¹ of each cell.
+    normal : CholeskyFactor
+        Of the normal equations in the coordinates R_c a_c.
     """
 
     trial: TrialFunctions
-    roots: list[Floats]
-    order: Ints
-    factor: Any
+    inverses: list[Floats]
+    normal: CholeskyFactor
 
     @property
     def n_unknowns(self) -> int:
@@ -75,28 +69,24 @@ class LeastSquares:
         weight = trial.nodes.weight[:, None]
         values, slopes = weight * values, weight * slopes
         parts = []
-        for cell in self.order:
+        for cell, inverse in enumerate(self.inverses):
             rows = slice(start[cell], start[cell + 1])
             gradient = trial.values[cell].conj().T @ values[rows]
             gradient += trial.slopes[cell].conj().T @ slopes[rows]
-            parts.append(solve_triangular(self.roots[cell], _real(gradient), trans="T"))
-        solution = self.factor(np.concatenate(parts))
-        found: list[Complexes] = [np.empty(0)] * len(parts)  # type: ignore[list-item]
-        end = 0
-        for cell in self.order:
-            begin, end = end, end + 2 * int(trial.size[cell]) - 1
-            found[cell] = _complex(solve_triangular(self.roots[cell], solution[begin:end]))
-        return found
+            parts.append(inverse.T @ _real(gradient))
+        solution = solve(self.normal, np.concatenate(parts))
+        ends = np.cumsum(2 * trial.size - 1)
+        return [
+            _complex(inverse @ part)
+            for inverse, part in zip(self.inverses, np.split(solution, ends[:-1]))
+        ]
 
 
 def least_squares(trial: TrialFunctions) -> LeastSquares:
     """Set up and factor the least-squares problem of the jumps."""
     weighted = _Weighted(trial)
-    roots = _roots(weighted)
-    order = _elimination_order(trial)
-    normal = _normal_equations(weighted, roots, order)
-    symbolic = analyze(normal, mode="supernodal", ordering_method="natural")
-    return LeastSquares(trial, roots, order, symbolic.cholesky(normal))
+    inverses = [_inverse_root(gram) for gram in _gram_matrices(weighted)]
+    return LeastSquares(trial, inverses, factor(_normal_equations(weighted, inverses)))
 
 
 class _Weighted:
@@ -148,13 +138,12 @@ def _complex(x: Floats) -> Complexes:
     return a
 
 
-def _roots(weighted: _Weighted) -> list[Floats]:
-    """The triangular factor of each cell."""
+def _gram_matrices(weighted: _Weighted) -> Iterator[Floats]:
+    """The products of the functions of each cell with each other."""
     cells = weighted.nodes.cells
     alone: dict[int, list[int]] = {}
     for i in np.flatnonzero(cells.cell[:, 0] == cells.cell[:, 1]):
         alone.setdefault(int(cells.cell[i, 0]), []).append(int(i))
-    roots = []
     for cell in range(cells.n_cells):
         values, slopes = weighted.cell(cell)
         gram = _products(values, slopes, values, slopes)
@@ -164,63 +153,45 @@ def _roots(weighted: _Weighted) -> list[Floats]:
         if cell == 0:
             # A constant on the whole surface jumps nowhere: one more equation says that it is 0.
             gram[0, 0] += 1.0
-        roots.append(_cholesky(gram))
-    return roots
+        yield gram
 
 
-def _cholesky(gram: Floats) -> Floats:
-    """R with RᵀR = gram, of a matrix that may be singular to rounding."""
+def _inverse_root(gram: Floats) -> Floats:
+    """R⁻¹ with RᵀR = gram, of a matrix that may be singular to rounding."""
     size = np.sqrt(np.diag(gram))
-    scaled = gram / np.outer(size, size)
-    shift = 0.0
+    scaled, shift = gram / np.outer(size, size), 0.0
     while True:
         try:
-            root = scipy.linalg.cholesky(scaled + shift * np.eye(len(gram)))
-            return np.asarray(root * size, dtype=np.float64)
+            root = scipy.linalg.cholesky(scaled + shift * np.eye(len(gram)), check_finite=False)
+            break
         except scipy.linalg.LinAlgError:
             shift = max(10.0 * shift, 1e-15)
+    inverse, _ = scipy.linalg.lapack.dtrtri(root)
+    return np.asarray(inverse / size[:, None], dtype=np.float64)
 
 
-def _elimination_order(trial: TrialFunctions) -> Ints:
-    """An order of the cells in which eliminating them couples few others: minimum degree."""
-    cells = trial.nodes.cells
-    a, b = cells.cell.T
-    n = cells.n_cells
-    graph = csc_matrix(
-        (np.ones(2 * a.size + n), (np.r_[a, b, :n], np.r_[b, a, :n])), shape=(n, n)
-    )
-    return np.asarray(analyze(graph, ordering_method="amd").P(), dtype=np.int64)
-
-
-def _normal_equations(weighted: _Weighted, roots: list[Floats], order: Ints) -> csc_matrix:
-    """The lower triangle of the normal equations, cells in the given order."""
+def _normal_equations(weighted: _Weighted, inverses: list[Floats]) -> csc_matrix:
+    """The lower triangle of the normal equations in the coordinates R_c a_c."""
     cells, size = weighted.nodes.cells, 2 * weighted.trial.size - 1
-    rank = np.empty(order.size, dtype=np.int64)
-    rank[order] = np.arange(order.size)
-    first = np.cumsum(size[order]) - size[order]
-    below: list[dict[int, Floats]] = [{} for _ in order]
+    first = np.cumsum(size) - size
+    below: list[dict[int, Floats]] = [{} for _ in inverses]
     for i, (a, b) in enumerate(cells.cell.tolist()):
         if a == b:
             continue
-        block = solve_triangular(roots[a], weighted.coupling(i), trans="T")
-        block = solve_triangular(roots[b], block.T, trans="T").T
-        row, column = rank[a], rank[b]
-        if row < column:
-            row, column, block = column, row, block.T
+        block = inverses[a].T @ weighted.coupling(i) @ inverses[b]
+        row, column = (b, a) if a < b else (a, b)
+        block = block.T if a < b else block
         blocks = below[column]
         blocks[row] = blocks[row] + block if row in blocks else block
     data, indices, counts = [], [], []
     for column, blocks in enumerate(below):
-        n = int(size[order[column]])
-        rows = sorted(blocks)
+        n, rows = int(size[column]), sorted(blocks)
         column_blocks = np.concatenate([np.eye(n), *(blocks[row] for row in rows)])
-        where = [np.arange(first[r], first[r] + size[order[r]]) for r in (column, *rows)]
+        where = [np.arange(first[r], first[r] + size[r]) for r in (column, *rows)]
         data.append(column_blocks.ravel(order="F"))
         indices.append(np.tile(np.concatenate(where), n))
         counts.append(np.full(n, len(column_blocks)))
         blocks.clear()
     indptr = np.concatenate([[0], np.cumsum(np.concatenate(counts))])
     total = int(size.sum())
-    return csc_matrix(
-        (np.concatenate(data), np.concatenate(indices), indptr), shape=(total, total)
-    )
+    return csc_matrix((np.concatenate(data), np.concatenate(indices), indptr), shape=(total, total))

@@ -26,12 +26,12 @@ from dataclasses import dataclass
 
 import flint
 import numpy as np
-from numpy.typing import NDArray
+
+from igl_periods.arrays import Floats
 
 from .series import Series
 
 Arb = flint.arb
-Floats = NDArray[np.float64]
 
 _BOUND_BITS = 64
 _FRACTIONS = np.linspace(0.25, 0.95, 15)

@@ -16,7 +16,8 @@ from dataclasses import dataclass
 
 import flint
 import numpy as np
-from numpy.typing import NDArray
+
+from igl_periods.arrays import Complexes, Floats
 
 from .interface_nodes import InterfaceNodes, gauss_nodes
 from .least_squares import LeastSquares
@@ -24,12 +25,11 @@ from .series import PowerTables, Series, face_trace, star_traces
 from .trial_functions import TrialFunctions
 
 Acb = flint.acb
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Ints = NDArray[np.int64]
 
-# A step that reduces the residual by less has met what the trial functions can do.
-_LEAST_GAIN = 1e-10
+# A step that reduces the residual by less has met what the trial functions can do; by less than
+# the second number it may have, and is believed to where the goal is nearly reached.
+_LEAST_GAIN, _LIMITED, _NEARLY = 1e-4, 1e-9, 0.8
+_CORRECTIONS = 1
 # Digits by which a step reduces it otherwise.
 _GAIN = 14.0
 
@@ -70,13 +70,14 @@ def refined(problem: LeastSquares, goal: float) -> Refined:
     series: Series | None = None
     exponent = 0
     while True:
-        update = problem.solve(values, slopes)
+        update, left = _corrected_solution(problem, values, slopes)
         series = expansion.added(series, update, exponent)
         total = [a + 2.0**exponent * b for a, b in zip(total, update)]
-        left = _residual_in_floats(problem, update, values, slopes)
-        level = float(np.log10(2.0) * exponent + np.log10(left))
-        # As long as double precision is what limits a step, the next one gains as much.
-        if level <= -goal or left > _LEAST_GAIN:
+        level = float(np.log10(2.0) * exponent + np.log10(max(left, 1e-300)))
+        # As long as double precision is what limits a step, the next one gains as much.  What it
+        # leaves otherwise is what the trial functions cannot do.
+        done = left > _LIMITED and level < -_NEARLY * goal
+        if level <= -goal or left > _LEAST_GAIN or done:
             return Refined(series, [np.abs(a).max(axis=1, initial=0.0) for a in total], level)
         with flint.ctx.workprec(precision_of(-level + _GAIN)):
             exponent, values, slopes = _residual(nodes, series, tables)
@@ -95,20 +96,27 @@ def _jump_rows(nodes: InterfaceNodes) -> Floats:
     return jumps
 
 
-def _residual_in_floats(
+def _corrected_solution(
+    problem: LeastSquares, values: Floats, slopes: Complexes
+) -> tuple[list[Complexes], float]:
+    """Solve, and solve again for what is left, in double precision; also the jumps left then."""
+    update = problem.solve(values, slopes)
+    for _ in range(_CORRECTIONS):
+        update = [
+            a + b for a, b in zip(update, problem.solve(*_left(problem, update, values, slopes)))
+        ]
+    wanted = _left(problem, update, values, slopes)
+    return update, max(float(np.abs(x).max(initial=0.0)) for x in wanted)
+
+
+def _left(
     problem: LeastSquares, newton: list[Complexes], wanted: Floats, slopes: Complexes
-) -> float:
-    """The largest jump that a solution leaves, in double precision."""
-    trial, nodes = problem.trial, problem.trial.nodes
-    left = wanted - np.concatenate([(phi @ a).real for phi, a in zip(trial.values, newton)])
-    kink = slopes - np.concatenate([phi @ a for phi, a in zip(trial.slopes, newton)])
-    other = np.empty(nodes.n_rows, dtype=np.int64)
-    for n in np.unique(nodes.n_nodes):
-        rows = nodes.row[nodes.n_nodes == n][:, :, None] + np.arange(n)
-        other[rows[:, 0]], other[rows[:, 1]] = rows[:, 1], rows[:, 0]
-    # Both sides hold what is wanted, with opposite signs for the values.
-    jump = np.abs(left - left[other] - wanted).max(initial=0.0)
-    return float(max(jump, np.abs(kink + kink[other] - slopes).max(initial=0.0), 1e-300))
+) -> tuple[Floats, Complexes]:
+    """The jumps that a solution leaves, in double precision, in the rows of both sides."""
+    trial, other = problem.trial, problem.trial.nodes.opposite
+    values = np.concatenate([(phi @ a).real for phi, a in zip(trial.values, newton)])
+    G = np.concatenate([phi @ a for phi, a in zip(trial.slopes, newton)])
+    return wanted - values + values[other], slopes - G - G[other]
 
 
 def _residual(

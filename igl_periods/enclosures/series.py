@@ -22,20 +22,17 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import flint
-import numpy as np
-from numpy.typing import NDArray
 
 from .cells import Cells
 
 Arb = flint.arb
 Acb = flint.acb
 ArbMat = flint.arb_mat
-Complexes = NDArray[np.complex128]
 
 # The rows of a table that are held at once, times their length.
 _ENTRIES_AT_ONCE = 1_000_000
 # Polynomials are filled up with zeros to multiples of this, so that they share tables.
-_LENGTH_UNIT = 8
+_LENGTH_UNIT = 16
 
 
 @dataclass(frozen=True, eq=False)
@@ -195,7 +192,7 @@ def powers_of(x: Acb, n: int) -> list[Acb]:
 def _products(
     rays: _Rays, coefficients: list[list[list[Acb]]], length: int
 ) -> list[list[list[Arb]]]:
-    """u and dF/dlog ω of the forms of several stars at the same points; (n, 3 k) each."""
+    """U and dF/dlog ω of the forms of several stars at the same points; (n, 3 k) each."""
     columns = [column for forms in coefficients for column in _real_columns(forms)]
     right = ArbMat(columns).transpose()
     width = len(columns) // len(coefficients)

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from igl_periods.delta_complex import DeltaComplex
-from igl_periods.pipeline import as_complex
+from igl_periods.complexes import DeltaComplex
+from igl_periods.periods import as_complex
 
 from .exact_lengths import ExactLengths, distances, lengths_of
 

@@ -17,13 +17,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+
+from igl_periods.arrays import Complexes, Floats, Ints
 
 from .interface_nodes import InterfaceNodes
-
-Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Ints = NDArray[np.int64]
 
 _ROWS_AT_ONCE = 200_000
 

@@ -23,11 +23,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
-from igl_periods.delta_complex import DeltaComplex
+from igl_periods.complexes import DeltaComplex
 
 from .planes import foot_and_height
 
-Ints = NDArray[np.int64]
 Arb = flint.arb
 
 
