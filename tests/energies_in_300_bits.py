@@ -4,6 +4,7 @@ Degree 1: flips one after the other, cotangents, sums over edges.  High degree: 
 polynomials with integer coefficients, integrated in closed form; there is no quadrature.
 """
 
+from functools import lru_cache
 from math import comb
 
 import numpy as np
@@ -89,10 +90,13 @@ def _tables(rows, columns):
     return [[_integral(p * q) for q in columns] for p in rows]
 
 
-def stiffness_terms(degree, conical):
+@lru_cache
+def stiffness_terms(reference):
     """Matrices of ∫∫ τ u_τ v_τ, of s^i u_τ v_s (i < 2), and of s^i u_s v_s / τ (i < 3)."""
     ctx.prec = BITS
-    S, T, factor = zip(*_trial_functions(degree, conical), strict=True)
+    # Only functions of the conical element are all linear in τ near the apex.
+    conical = bool(np.all(reference.powers == 1))
+    S, T, factor = zip(*_trial_functions(reference.degree, conical), strict=True)
     slope_S, slope_T = [p.derivative() for p in S], [p.derivative() for p in T]
     t = fmpq_poly([0, 1])
     # The quotient T / t matters only where S′ is not 0, and there it is a polynomial.
@@ -135,7 +139,7 @@ def polynomial_energies(forms, coefficients, lengths):
     k = forms.cochains.shape[0]
     D = arb_mat(k, k)
     for elements in forms.elements:
-        terms = stiffness_terms(elements.reference.degree, elements.reference.conical)
+        terms = stiffness_terms(elements.reference)
         for m, (face, apex) in enumerate(zip(elements.face, elements.apex, strict=True)):
             u = coefficients(elements, m)
             D += u.transpose() * stiffness(terms, lengths(face), int(apex), elements.kappa[m]) * u

@@ -6,21 +6,15 @@ import re
 import numpy as np
 import pytest
 from random_surfaces import random_gluing, random_lengths
-from scipy.sparse import csr_array
 
 import igl_periods as ip
 from igl_periods.complexes.delaunay import intrinsic_delaunay
 from igl_periods.elements.least_energy import dirichlet_matrix, energy_excess, high_order_forms
 from igl_periods.elements.trace_system import count_unknowns
 from igl_periods.periods import adaptive_degree as adaptive
-from igl_periods.periods.adaptive_degree import (
-    Attempt,
-    ToleranceWarning,
-    Triangulation,
-    period_matrix_within,
-)
+from igl_periods.periods.adaptive_degree import Attempt, ToleranceWarning, period_matrix_within
+from igl_periods.periods.certificate import Triangulation, WithAllowance
 from igl_periods.periods.memory_estimates import high_order_memory
-from igl_periods.periods.rounding import LEAST_ALLOWANCE, congruence
 from igl_periods.surfaces.square_tiled import glued_rectangles, origami, square_tiled_surface
 from igl_periods.symplectic.williamson_form import williamson, williamson_basis
 from igl_periods.topology.cohomology import cochains_and_basis
@@ -36,13 +30,8 @@ def thin_L(width):
 def within(K, tolerance, **limits):
     cochains, T = cochains_and_basis(K)
     flipped, carried = intrinsic_delaunay(K, cochains)
-
-    def certify(raw, allowance):
-        D, loss = congruence(T, raw)
-        cocycles = csr_array(csr_array(T.astype(np.int64)) @ cochains)
-        return ip.PeriodMatrix(D, True, cocycles, K, max(LEAST_ALLOWANCE, allowance + loss))
-
-    return period_matrix_within(Triangulation(flipped, carried, T), certify, tolerance, **limits)
+    method = WithAllowance(K, cochains, T)
+    return period_matrix_within(Triangulation(flipped, carried, T), method, tolerance, **limits)
 
 
 ASYMMETRIC = origami([1, 2, 0, 4, 3], [3, 1, 4, 0, 2])
@@ -153,9 +142,9 @@ def test_failing_attempt_keeps_the_best(monkeypatch):
 def test_stagnation_is_recognised(monkeypatch):
     honest, done = adaptive._carried_out, []
 
-    def useless(plan, certify, tolerance):
+    def useless(plan, method, tolerance):
         done.append(plan)
-        first = honest(adaptive.Plan(done[0].triangulation, 2, 0.0), certify, tolerance)
+        first = honest(adaptive.Plan(done[0].triangulation, 2, 0.0), method, tolerance)
         even = np.ones(plan.triangulation.complex.n_faces)
         return Attempt(plan.triangulation, plan.degree, first.unknowns, 0.0, first.result, even)
 

@@ -24,17 +24,14 @@ from __future__ import annotations
 import flint
 import numpy as np
 from flint import arb
-from numpy.typing import NDArray
 
-from igl_periods.delaunay import Flips
-from igl_periods.delta_complex import DeltaComplex
+from igl_periods.arrays import Ints
+from igl_periods.complexes import DeltaComplex
+from igl_periods.complexes.delaunay import Flips
 from igl_periods.errors import ComplexError
 
 from .midpoint_radius import Balls
 from .shapes import double_areas, foot
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 # Lengths that are not known to so much, relatively, are computed with more bits: the first of
 # these that leads to no more flips than stand beside it.
@@ -93,7 +90,7 @@ def after_flips(lengths: Balls, rounds: list[Flips]) -> Balls:
 
 
 def after_midpoints(K: DeltaComplex, lengths: Balls) -> Balls:
-    """The lengths of the edges after :func:`igl_periods.refinement.split` of K."""
+    """The lengths of the edges after :func:`igl_periods.complexes.split` of K."""
     halves = lengths.scaled(0.5)
     inner = halves[K.edge.ravel()]
     return Balls(
@@ -105,7 +102,7 @@ def after_midpoints(K: DeltaComplex, lengths: Balls) -> Balls:
 def after_barycentres(K: DeltaComplex, lengths: Balls, faces: Ints) -> Balls:
     """The lengths of the edges after barycentres were inserted into faces of K.
 
-    The edges are those of :func:`igl_periods.local_refinement.insert_barycentres`.
+    The edges are those of :func:`igl_periods.complexes.insert_barycentres`.
     """
     sides = lengths[K.edge[faces]]
     distances = [_barycentre_distance(*(sides[:, (s + i) % 3] for i in range(3))) for s in range(3)]

@@ -23,13 +23,12 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from igl_periods.linear_forms import blocks
-from igl_periods.stages import progress
+from igl_periods.arrays import Floats
+from igl_periods.harmonic.linear_forms import blocks
+from igl_periods.run_log import progress
 
 from .midpoint_radius import UNIT, Balls, inner_products, total
 from .shapes import check_known, double_areas, foot
-
-Floats = NDArray[np.float64]
 
 
 class SideValues(Protocol):
@@ -48,7 +47,7 @@ class EnclosedForms:
     lengths : (m, 3) balls
     corner_vertex : (m, 3) int
     jumps : SideValues
-        Values of the cochains along the sides, as :class:`igl_periods.linear_forms.Jumps`.
+        Values of the cochains along the sides, as :class:`igl_periods.harmonic.linear_forms.Jumps`.
     potentials : (n_vertices, k) float
         The functions f, exact as they are.
     """

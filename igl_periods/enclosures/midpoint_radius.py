@@ -48,7 +48,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from igl_periods.arrays import Floats
 
 UNIT = 2.0**-53
 _UP = 1.0 + 2.0**-48
@@ -207,10 +207,10 @@ def _short_products(X: Floats, Y: Floats) -> tuple[Floats, int]:
     """Xᵀ Y, and the most operations that any of its products takes part in."""
     n, k = X.shape
     rows = int(np.clip(2 * k, _FEWEST_ROWS, _LARGEST_PORTION))
-    whole = n // rows * rows
-    parts = X[:whole].reshape(-1, rows, k).transpose(0, 2, 1) @ Y[:whole].reshape(
-        -1, rows, Y.shape[1]
-    )
+    count = n // rows
+    whole = count * rows
+    left, right = X[:whole].reshape(count, rows, k), Y[:whole].reshape(count, rows, Y.shape[1])
+    parts = left.transpose(0, 2, 1) @ right
     if whole < n or n == 0:
         parts = np.concatenate([parts, (X[whole:].T @ Y[whole:])[None]])
     n_terms = rows

@@ -1,8 +1,8 @@
 r"""Energies of forms of high degree, in balls.
 
-On a face seen from its apex (:mod:`igl_periods.cone_element`), with λ the height over the length of
-the opposite side and x the foot of the height, the energy of a trial function u is the sum over
-the points of a Gauss quadrature of X_1² + X_2²,
+On a face seen from its apex (:mod:`igl_periods.elements.reference_elements`), with λ the height
+over the length of the opposite side and x the foot of the height, the energy of a trial function u
+is the sum over the points of a Gauss quadrature of X_1² + X_2²,
 
 .. math:: X_1 = \sqrt{\frac\kappa\lambda}\; a - \frac{(s - x)\, b}{\sqrt{\kappa \lambda}},
           \qquad X_2 = \sqrt{\frac\lambda\kappa}\; b, \qquad
@@ -45,20 +45,17 @@ from functools import lru_cache
 import flint
 import numpy as np
 from flint import arb
-from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
-from igl_periods.assembly import jumps, unknowns
-from igl_periods.condensation import Elements
-from igl_periods.cone_element import ReferenceElement, reference_element
-from igl_periods.high_order import HighOrderForms
-from igl_periods.stages import progress
+from igl_periods.arrays import Floats, Ints
+from igl_periods.elements.least_energy import HighOrderForms
+from igl_periods.elements.placement import Elements
+from igl_periods.elements.reference_elements import ReferenceElement
+from igl_periods.elements.trace_system import jumps, unknowns
+from igl_periods.run_log import progress
 
 from .midpoint_radius import UNIT, Balls, gamma, inner_products, norms, total
 from .shapes import check_known, cotangents, double_areas
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 _BITS = 192
 _UP = 1.0 + 2.0**-30
@@ -107,24 +104,20 @@ class EnclosedReference:
 
 
 @lru_cache(maxsize=64)
-def enclosed_reference(degree: int, conical: bool) -> EnclosedReference:
-    """The tables of :func:`igl_periods.cone_element.reference_element` in balls."""
-    reference = reference_element(degree, conical)
+def enclosed_reference(reference: ReferenceElement) -> EnclosedReference:
+    """The tables of an element at the points of its quadrature, in balls."""
     with flint.ctx.workprec(_BITS):
-        s, s_root = _gauss(degree + 1)
-        tau, tau_root = _gauss(degree)
-        along, slope = _angular_functions(degree, s)
-        exponents = [1 if conical else max(int(i), 1) for i, _ in reference.factors]
-        radial = {
-            (b, int(j)): _radial_function(b, int(j), tau)
-            for b, (_, j) in zip(exponents, reference.factors, strict=True)
-        }
+        s, s_root = _gauss(reference.degree + 1)
+        tau, tau_root = _gauss(reference.degree)
+        along, slope = _angular_functions(reference.degree, s)
+        pairs = list(zip(reference.powers.tolist(), reference.factors[:, 1].tolist(), strict=True))
+        radial = {pair: _radial_function(*pair, tau) for pair in set(pairs)}
         root = [weight * t.sqrt() for weight, t in zip(tau_root, tau, strict=True)]
         by_tau = [_outer(s_root, [-x for x in root])]
         by_s = [_outer([arb(0)] * len(s), root)]
-        rows = zip(exponents, reference.factors.tolist(), reference.signs.tolist(), strict=True)
-        for b, (i, j), sign in rows:
-            quotient, derivative = radial[b, j]
+        in_s = reference.factors[:, 0].tolist()
+        for pair, i, sign in zip(pairs, in_s, reference.signs.tolist(), strict=True):
+            quotient, derivative = radial[pair]
             weighted = [weight * int(sign) for weight in s_root]
             by_tau.append(_outer(_times(weighted, along[i]), _times(root, derivative)))
             by_s.append(_outer(_times(weighted, slope[i]), _times(root, quotient)))
@@ -167,18 +160,14 @@ def _on_blocks(forms: HighOrderForms, lengths: Balls) -> Iterator[Balls]:
     by_edge = forms.cochains.T.tocsr()
     done, n_faces, k = 0, forms.complex.n_faces, forms.cochains.shape[0]
     for elements, extension in zip(forms.elements, forms.extensions, strict=True):
-        tables = _tables(elements.reference)
-        for block in elements.blocks(max(k, 1) * elements.reference.nodes.size):
+        tables = enclosed_reference(elements.reference)
+        for block in elements.blocks(max(k, 1) * tables.nodes.shape[0]):
             progress("energies in balls", done, n_faces)
             done += block.size
             u, error = _coefficients(forms, by_edge, elements, extension[block], block)
             aspect, foot = _shapes(elements, block, lengths)
             for X, radius in _gradients(tables, aspect, foot, elements.kappa[block], u, error):
                 yield _gram(X, radius)
-
-
-def _tables(reference: ReferenceElement) -> EnclosedReference:
-    return enclosed_reference(reference.degree, reference.conical)
 
 
 def _gram(X: Floats, radius: Floats) -> Balls:

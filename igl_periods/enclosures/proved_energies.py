@@ -32,16 +32,12 @@ from numpy.typing import NDArray
 from scipy.linalg import solve_triangular
 from scipy.sparse import csr_array
 
-from igl_periods.integer_matrices import product
-from igl_periods.linear_forms import Jumps
-from igl_periods.symplectic import cholesky_factor
+from igl_periods.arrays import Complexes, Floats, Ints
+from igl_periods.harmonic.linear_forms import Jumps
+from igl_periods.symplectic import cholesky_factor, product
 
 from .midpoint_radius import Balls
 from .relative_radius import BITS, energy_balls, relative_radius
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Complexes = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +73,7 @@ class ProvedEnergies:
         """Midpoints of the energies in the canonical basis; (k, k), symmetric."""
         with flint.ctx.workprec(BITS):
             D = self._coordinates * energy_balls(self._energies) * self._coordinates.transpose()
-            values = np.array([[float(x) for x in row] for row in D.table()])
+            values = np.array([float(x) for x in D.entries()]).reshape(self.basis.shape)
         return np.asarray(0.5 * (values + values.T), dtype=np.float64)
 
     def relative_radius(self, Pi: Complexes) -> float:

@@ -44,13 +44,12 @@ from collections.abc import Iterable
 import flint
 import numpy as np
 from flint import arb, arb_mat
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from igl_periods.arrays import Floats
 from igl_periods.symplectic import cholesky_factor
 
 from .midpoint_radius import Balls
-
-Floats = NDArray[np.float64]
 
 # What is computed beyond the radius of the energies; more than the markings of any surface need.
 BITS = 192

@@ -21,26 +21,22 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.sparse import csr_array
+from scipy.sparse import csc_matrix, csr_array
 
-from igl_periods.adaptive import Triangulation
-from igl_periods.delaunay import delaunay_flips, transport
-from igl_periods.delta_complex import DeltaComplex
-from igl_periods.harmonic import factorised
-from igl_periods.harmonic_energies import HarmonicProblem, _panels, harmonic_problem
-from igl_periods.high_order import HighOrderForms, dirichlet_matrix
-from igl_periods.linear_forms import LinearForms, gram_matrix
-from igl_periods.local_refinement import insert_barycentres
+from igl_periods.arrays import Floats, Ints
+from igl_periods.complexes import DeltaComplex, insert_barycentres
+from igl_periods.complexes.delaunay import delaunay_flips, transport
+from igl_periods.elements.least_energy import HighOrderForms, dirichlet_matrix
+from igl_periods.harmonic import CholeskyFactor
+from igl_periods.harmonic.energies import HarmonicProblem, harmonic_problem, panels_of_columns
+from igl_periods.harmonic.linear_forms import LinearForms, gram_matrix
+from igl_periods.periods.certificate import Triangulation
 
 from . import linear_energies, polynomial_energies
 from .length_balls import after_barycentres, after_flips, after_midpoints, stored_lengths
 from .linear_energies import EnclosedForms
 from .midpoint_radius import Balls, check_arithmetic
 from .proved_energies import CombinedJumps, ProvedEnergies, orthonormal_combination
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,32 +83,58 @@ class EnclosedTriangulation(Triangulation):
         return EnclosedTriangulation(K, cochains, self.basis, lengths).flipped()
 
 
-def linear_proof(where: EnclosedTriangulation, memory: float | None = None) -> ProvedEnergies:
+@dataclass(frozen=True, eq=False)
+class EnclosedProblem:
+    """The harmonic forms of a triangulation that are linear on triangles, before they are known.
+
+    Attributes
+    ----------
+    problem : HarmonicProblem
+    sides : (m, 3) balls
+        The lengths of the sides of the faces.
+    cochains : (2g, n_edges) sparse int
+    basis : (2g, 2g) int
+    """
+
+    problem: HarmonicProblem
+    sides: Balls
+    cochains: csr_array
+    basis: Ints
+
+
+def linear_problem(where: EnclosedTriangulation) -> tuple[csc_matrix, EnclosedProblem]:
+    """The grounded Laplacian, and all else that is needed of a triangulation."""
+    laplacian, problem = harmonic_problem(where.complex, where.cochains)
+    sides = where.lengths[where.complex.edge]
+    return laplacian, EnclosedProblem(problem, sides, where.cochains, where.basis)
+
+
+def linear_proof(
+    enclosed: EnclosedProblem, factor: CholeskyFactor, memory: float | None = None
+) -> ProvedEnergies:
     """Energies of the harmonic forms that are linear on triangles.
 
     Parameters
     ----------
-    where : EnclosedTriangulation
+    enclosed : EnclosedProblem
+    factor : CholeskyFactor
+        Of the grounded Laplacian.
     memory : float, optional
         Bytes that the functions may take; with less than all need, they are computed in portions.
 
     Raises
     ------
     ComplexError
-        If the Laplacian is not positive definite, or a triangle may be degenerate.
+        If a triangle may be degenerate, or the energies are not positive definite.
     """
-    laplacian, problem = harmonic_problem(where.complex, where.cochains)
-    factor = factorised(laplacian)
-    del laplacian
-    sides = where.lengths[where.complex.edge]
+    problem = enclosed.problem
     n, k = problem.sources.shape
-    panels = _panels(n, k, None if memory is None else 0.5 * memory)
+    panels = panels_of_columns(n, k, None if memory is None else 0.5 * memory)
     if len(panels) > 1:
-        return _by_panels(problem, factor, panels, sides, where.basis)
+        return _by_panels(enclosed, factor, panels)
     forms, _ = problem.forms(slice(0, k), factor)
-    del factor
-    enclosed, W = nearly_orthonormal(forms, where.cochains, sides)
-    return _proved(linear_energies.enclosed_energies(enclosed), W, where.basis)
+    orthonormal, W = nearly_orthonormal(forms, enclosed.cochains, enclosed.sides)
+    return _proved(linear_energies.enclosed_energies(orthonormal), W, enclosed.basis)
 
 
 def nearly_orthonormal(
@@ -159,25 +181,24 @@ def high_order_proof(where: EnclosedTriangulation, forms: HighOrderForms) -> Pro
 
 
 def _by_panels(
-    problem: HarmonicProblem, factor: object, panels: list[slice], sides: Balls, basis: Ints
+    enclosed: EnclosedProblem, factor: CholeskyFactor, panels: list[slice]
 ) -> ProvedEnergies:
-    """The energies of the forms as they are, portion by portion, where all have no room at once."""
-    k = problem.sources.shape[1]
+    """The energies of the forms as they are, in portions, where all have no room at once."""
+    k = enclosed.problem.sources.shape[1]
     mid, rad = np.zeros((k, k)), np.zeros((k, k))
     for i, rows in enumerate(panels):
-        held = _enclosed(problem.forms(rows, factor)[0], sides)
+        held = _portion(enclosed, rows, factor)
         for columns in panels[i:]:
-            other = None
-            if columns != rows:
-                other = _enclosed(problem.forms(columns, factor)[0], sides)
+            other = None if columns == rows else _portion(enclosed, columns, factor)
             part = linear_energies.enclosed_energies(held, other)
             for whole, values in ((mid, part.mid), (rad, part.rad)):
                 whole[rows, columns], whole[columns, rows] = values, values.T
-    return _proved(Balls(mid, rad), np.eye(k), basis)
+    return _proved(Balls(mid, rad), np.eye(k), enclosed.basis)
 
 
-def _enclosed(forms: LinearForms, sides: Balls) -> EnclosedForms:
-    return EnclosedForms(sides, forms.faces.corner_vertex, forms.jumps, forms.potentials)
+def _portion(enclosed: EnclosedProblem, columns: slice, factor: CholeskyFactor) -> EnclosedForms:
+    forms, _ = enclosed.problem.forms(columns, factor)
+    return EnclosedForms(enclosed.sides, forms.faces.corner_vertex, forms.jumps, forms.potentials)
 
 
 def _proved(energies: Balls, W: Floats, basis: Ints) -> ProvedEnergies:

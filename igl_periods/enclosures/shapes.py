@@ -27,8 +27,6 @@ from igl_periods.errors import ComplexError
 
 from .midpoint_radius import UNIT, Balls
 
-Floats = NDArray[np.float64]
-
 
 def double_areas(lengths: Balls) -> Balls:
     """Twice the area of each triangle, of radius ∞ where it may be degenerate; (m,).

@@ -12,7 +12,8 @@ from random_surfaces import noisy_torus, random_gluing, random_lengths
 from scipy.sparse import csr_array
 
 import igl_periods as ip
-from igl_periods.delaunay import delaunay_flips
+from igl_periods.complexes import insert_barycentres, split
+from igl_periods.complexes.delaunay import delaunay_flips
 from igl_periods.enclosures import length_balls
 from igl_periods.enclosures.length_balls import (
     after_barycentres,
@@ -21,8 +22,6 @@ from igl_periods.enclosures.length_balls import (
     stored_lengths,
 )
 from igl_periods.enclosures.midpoint_radius import Balls
-from igl_periods.local_refinement import insert_barycentres
-from igl_periods.refinement import split
 
 
 def no_cochains(K):

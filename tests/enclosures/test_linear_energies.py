@@ -14,13 +14,12 @@ from random_surfaces import (
 )
 
 import igl_periods as ip
-from igl_periods.delaunay import delaunay_flips
+from igl_periods.complexes.delaunay import delaunay_flips
 from igl_periods.enclosures.linear_energies import enclosed_energies
 from igl_periods.enclosures.midpoint_radius import Balls
 from igl_periods.enclosures.rigorous import EnclosedTriangulation, nearly_orthonormal
-from igl_periods.harmonic import factorised
-from igl_periods.harmonic_energies import harmonic_problem
-from igl_periods.homology import cochains_and_basis
+from igl_periods.harmonic import factored, harmonic_problem
+from igl_periods.topology import cochains_and_basis
 
 
 def spiked_torus(height, seed):
@@ -68,7 +67,7 @@ def enclosed(K, flips=True):
     where = EnclosedTriangulation.of(K, cochains, T.astype(np.int64))
     where = where.flipped() if flips else where
     laplacian, problem = harmonic_problem(where.complex, where.cochains)
-    forms, _ = problem.forms(slice(0, cochains.shape[0]), factorised(laplacian))
+    forms, _ = problem.forms(slice(0, cochains.shape[0]), factored(laplacian))
     sides = where.lengths[where.complex.edge]
     orthonormal, W = nearly_orthonormal(forms, where.cochains, sides)
     rounds = delaunay_flips(K)[1] if flips else []
@@ -119,7 +118,7 @@ def test_bad_solutions_stay_enclosed(seed):
     cochains, T = cochains_and_basis(K)
     where = EnclosedTriangulation.of(K, cochains, T.astype(np.int64))
     laplacian, problem = harmonic_problem(K, cochains)
-    forms, _ = problem.forms(slice(0, cochains.shape[0]), factorised(laplacian))
+    forms, _ = problem.forms(slice(0, cochains.shape[0]), factored(laplacian))
     noise = 10.0 ** rng.uniform(-12, 3) * rng.normal(size=forms.potentials.shape)
     worse = type(forms)(forms.faces, forms.jumps, forms.potentials + noise)
     enclosed_forms, W = nearly_orthonormal(worse, cochains, where.lengths[K.edge])

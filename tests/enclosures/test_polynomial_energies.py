@@ -12,21 +12,17 @@ from scipy.sparse import csr_array
 from test_linear_energies import capped_torus, spiked_torus
 
 import igl_periods as ip
-from igl_periods.condensation import Elements
-from igl_periods.cone_element import reference_element
-from igl_periods.delaunay import delaunay_flips
+from igl_periods.complexes.delaunay import delaunay_flips
+from igl_periods.elements import dirichlet_matrix, high_order_forms
+from igl_periods.elements.least_energy import least_energy_forms
+from igl_periods.elements.placement import Elements, flat_elements
+from igl_periods.elements.reference_elements import conical_element, flat_element
 from igl_periods.enclosures.length_balls import after_midpoints
 from igl_periods.enclosures.midpoint_radius import Balls
 from igl_periods.enclosures.polynomial_energies import enclosed_energies, enclosed_reference
 from igl_periods.enclosures.proved_energies import orthonormal_combination
 from igl_periods.enclosures.rigorous import EnclosedTriangulation
-from igl_periods.high_order import (
-    dirichlet_matrix,
-    flat_elements,
-    high_order_forms,
-    least_energy_forms,
-)
-from igl_periods.homology import cochains_and_basis
+from igl_periods.topology import cochains_and_basis
 
 
 def surfaces():
@@ -132,7 +128,9 @@ def test_exponents_need_not_be_those_of_the_cones(factor):
     def other_exponents(K, cochains):
         forms = high_order_forms(K, cochains, 3)
         elements = tuple(
-            dataclasses.replace(part, kappa=part.kappa * factor) if part.reference.conical else part
+            dataclasses.replace(part, kappa=part.kappa * factor)
+            if part.reference is conical_element(3)
+            else part
             for part in forms.elements
         )
         return least_energy_forms(forms.complex, forms.cochains, elements)
@@ -154,15 +152,16 @@ def test_bad_solutions_stay_enclosed(seed):
     assert contains(energies, exact)
 
 
-@pytest.mark.parametrize("conical", [True, False])
+@pytest.mark.parametrize("element", [flat_element, conical_element])
 @pytest.mark.parametrize("degree", [1, 2, 7, 14])
-def test_tables_are_those_of_the_elements(degree, conical):
-    reference, enclosed = reference_element(degree, conical), enclosed_reference(degree, conical)
+def test_tables_are_those_of_the_elements(degree, element):
+    reference = element(degree)
+    enclosed, quadrature = enclosed_reference(reference), reference.quadrature
     assert np.array_equal(
         np.sort(np.concatenate(enclosed.groups)), np.arange(reference.n_functions)
     )
-    assert np.abs(enclosed.nodes.mid - reference.nodes).max() < 1e-15
-    for tables, floats in ((enclosed.by_tau, reference.by_tau), (enclosed.by_s, reference.by_s)):
+    assert np.abs(enclosed.nodes.mid - quadrature.nodes).max() < 1e-15
+    for tables, floats in ((enclosed.by_tau, quadrature.by_tau), (enclosed.by_s, quadrature.by_s)):
         for group, table in zip(enclosed.groups, tables, strict=True):
             assert np.allclose(table.mid, floats[:, group], rtol=0, atol=2e-13)
             size = np.linalg.norm(np.abs(table.mid), 2)
