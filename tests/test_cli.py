@@ -60,7 +60,7 @@ def test_json_is_complete_and_consistent(torus, capsys):
     }  # fmt: skip
     assert document["mesh"]["loaded"]["triangles"] == 480
     assert document["options"] == {
-        "weights": "intrinsic", "delaunay": True, "degree": 1, "tolerance": None,
+        "weights": "intrinsic", "delaunay": True, "degree": 1, "tolerance": None, "rigorous": False,
         "repair": False, "double": False, "component": None, "reduce": None
     }  # fmt: skip
     assert document["version"] == ip.__version__

@@ -38,7 +38,7 @@ from igl_periods.pictures import (
 )
 
 from .json_document import period_matrix_to_json
-from .words import advice, parametrization_in_words
+from .words import advice, parametrization_in_words, rounded_up, trust_in_words
 
 logger = logging.getLogger("igl_periods")
 _LARGEST_PRINTED = 8
@@ -186,10 +186,10 @@ def _bound_in_words(pm: PeriodMatrix) -> str:
             "Intrinsic weights come with one."
         )
     return (
-        f"Π of this polyhedral surface is known to within {pm.bound:.2g}, relative to its size; no "
-        f"entry is off by more than {bounds.max():.2g}. This is a theorem, with an allowance for "
-        "rounding. It is about the surface made of these flat triangles: how well they represent a "
-        "smooth surface is another question, which the bound does not answer."
+        f"Π of this polyhedral surface is known to within {rounded_up(pm.bound)}, relative to its "
+        f"size; no entry is off by more than {rounded_up(float(bounds.max()))}. "
+        f"{trust_in_words(pm)} It is about the surface made of these flat triangles: how well they "
+        "represent a smooth surface is another question, which the bound does not answer."
     )
 
 

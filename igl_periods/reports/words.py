@@ -5,6 +5,8 @@ Each is written here once, for the terminal, the page and whoever else shows it.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from igl_periods.differentials import Parametrization
@@ -97,6 +99,22 @@ def _rate(quality: MeshQuality) -> float:
     return min(2.0, 4.0 * np.pi / float(quality.cone_angles.max()))
 
 
+def trust_in_words(pm: PeriodMatrix) -> str:
+    """What stands behind the bound of a period matrix."""
+    if pm.rigorous:
+        return "This is proved."
+    return "This is a theorem, with an allowance for rounding."
+
+
+def rounded_up(bound: float) -> str:
+    """Two digits of a bound, never less than it."""
+    if bound == 0.0:
+        return "0"
+    unit = 10.0 ** (math.floor(math.log10(bound)) - 1)
+    shown = f"{bound:.2g}"
+    return shown if float(shown) >= bound else f"{bound + unit:.2g}"
+
+
 def bound_in_words(pm: PeriodMatrix) -> list[str]:
     """What the bound of a period matrix says, and what it does not."""
     bounds = pm.entry_bounds
@@ -106,9 +124,9 @@ def bound_in_words(pm: PeriodMatrix) -> list[str]:
             "Intrinsic weights (the default) come with one.",
         ]
     return [
-        f"Π of this polyhedral surface is known to within {pm.bound:.2g}, relative to its size;",
-        f"no entry is off by more than {bounds.max():.2g}. This is a theorem, with an allowance "
-        "for rounding.",
+        f"Π of this polyhedral surface is known to within {rounded_up(pm.bound)}, relative to its "
+        "size;",
+        f"no entry is off by more than {rounded_up(float(bounds.max()))}. {trust_in_words(pm)}",
         "It is about the surface made of these flat triangles: how well they represent a smooth",
         "surface is another question, which the bound does not answer.",
     ]
