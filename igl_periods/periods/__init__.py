@@ -19,7 +19,6 @@ triangles have the stored lengths.
 ``rounding``          what rounding can change between D and Π
 ``matrix``            the period matrix, its estimates and its bound
 ``certificate``       D and its allowance → the certified matrix
-``proof``             D in balls → a matrix whose bound is proved
 ``adaptive_degree``   the degree that meets a tolerance
 ``computation``       the steps, one after the other
 ``adaptive_mesh``     finer triangulations where the bound originates

@@ -5,7 +5,7 @@ applied to the 2g × 2g matrix, T D Tᵀ, not to 2g dense forms.
 
 There are two ways from forms to a matrix with a bound, and a :class:`Method` is one of them: in
 floating point, with an allowance for rounding (:class:`WithAllowance`), or in balls
-(:class:`igl_periods.periods.proof.Proved`).
+(:class:`igl_periods.enclosures.proof.Proved`).
 """
 
 from __future__ import annotations

@@ -172,7 +172,8 @@ def _method(K: DeltaComplex, cochains: csr_array, T: NDArray[np.int8], rigorous:
     """How energies are computed, in floating point or in balls."""
     if not rigorous:
         return WithAllowance(K, cochains, T)
-    from .proof import Proved  # slow to import, and seldom needed
+    # The only step upwards: enclosures know period matrices, and prove them here.
+    from igl_periods.enclosures.proof import Proved
 
     return Proved(K, cochains, T)
 

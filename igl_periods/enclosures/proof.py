@@ -17,20 +17,20 @@ from scipy.sparse import csc_matrix, csr_array
 from igl_periods.arrays import Ints
 from igl_periods.complexes import DeltaComplex
 from igl_periods.elements import HighOrderForms
-from igl_periods.enclosures.proved_energies import ProvedEnergies
-from igl_periods.enclosures.rigorous import (
+from igl_periods.errors import ComplexError
+from igl_periods.harmonic import CholeskyFactor
+from igl_periods.periods.certificate import Triangulation, combined_cochains
+from igl_periods.periods.matrix import PeriodMatrix
+from igl_periods.run_log import stage
+
+from .proved_energies import ProvedEnergies
+from .rigorous import (
     EnclosedProblem,
     EnclosedTriangulation,
     high_order_proof,
     linear_problem,
     linear_proof,
 )
-from igl_periods.errors import ComplexError
-from igl_periods.harmonic import CholeskyFactor
-from igl_periods.run_log import stage
-
-from .certificate import Triangulation, combined_cochains
-from .matrix import PeriodMatrix
 
 
 @dataclass(frozen=True, eq=False)
