@@ -2,7 +2,8 @@ r"""Side lengths in balls, while a triangulation is changed: flips, midpoints, b
 
 The surface is the one whose triangles have the side lengths that the complex *stores*: these
 floating-point numbers are its lengths, exactly.  (Lengths of a mesh are rounded distances of its
-vertices; where mollification added something, it is part of them.)  Each change of the
+vertices; where mollification added something, it is part of them.)  A complex that carries exact
+lengths beside them means these as well.  Each change of the
 triangulation leaves the surface as it is, and makes new sides, whose lengths are balls around what
 was computed:
 
@@ -38,6 +39,8 @@ from .shapes import double_areas, foot
 _SHARPENED = ((2.0**-49, 20_000.0), (2.0**-40, 100_000.0), (2.0**-30, np.inf))
 # Balls may become several times as large with each of the flips that follow each other.
 _LEAST_BITS, _BITS_A_ROUND = 128, 3
+# Exact lengths and those that are stored differ by no more than this, relatively.
+_LARGEST_ROUNDING = 1e-9
 
 
 def stored_lengths(K: DeltaComplex) -> Balls:
@@ -56,6 +59,34 @@ def stored_lengths(K: DeltaComplex) -> Balls:
             "the complex by DeltaComplex.from_mesh, from_lengths or from_gluing."
         )
     return Balls.exact(lengths)
+
+
+def lengths_of_edges(K: DeltaComplex) -> Balls:
+    """Balls that contain the stored lengths of the edges, and the exact ones if there are any.
+
+    A complex may carry ``exact_lengths``, a function of the precision in bits that gives a ball for
+    each edge.  Then a proof is about both surfaces, the one with these lengths and the one with the
+    stored ones; unless mollification made them different on purpose.
+
+    Raises
+    ------
+    ComplexError
+        If the two halves of an edge have different lengths, or exact lengths are not those that
+        are stored.
+    """
+    stored = stored_lengths(K)
+    exact = getattr(K, "exact_lengths", None)
+    if exact is None or K.mollification:
+        return stored
+    with flint.ctx.workprec(_LEAST_BITS):
+        pairs = zip(exact(_LEAST_BITS), stored.mid.tolist(), strict=True)
+        apart = np.array([float(abs(length - middle).upper()) for length, middle in pairs])
+    if not np.all(apart <= _LARGEST_ROUNDING * stored.mid):
+        raise ComplexError(
+            f"exact lengths differ from the stored ones by up to {np.max(apart):.3g}: they are "
+            "lengths of different surfaces."
+        )
+    return Balls(stored.mid, np.nextafter(apart, np.inf))
 
 
 def after_flips(lengths: Balls, rounds: list[Flips]) -> Balls:

@@ -6,7 +6,8 @@ r"""Energies of the harmonic forms of a surface, proved: the steps, one after th
 **Which surface.**  The theorem is about the polyhedral surface whose triangles have the side
 lengths that ``DeltaComplex.lengths`` stores, every one of them a floating-point number, taken
 exactly: after glued sides were averaged, and after mollification, if there was any.  For a mesh
-they are distances of its vertices, rounded.
+they are distances of its vertices, rounded.  Where the complex carries exact lengths, as √2 is one,
+the theorem is about the surface with these as well.
 
 **What is trusted.**  Three things that are integers, and exact: the gluing, the cochains with
 their sums when edges are flipped, and the canonical basis of cohomology.  The values of the
@@ -33,7 +34,7 @@ from igl_periods.harmonic.linear_forms import LinearForms, gram_matrix
 from igl_periods.periods.certificate import Triangulation
 
 from . import linear_energies, polynomial_energies
-from .length_balls import after_barycentres, after_flips, after_midpoints, stored_lengths
+from .length_balls import after_barycentres, after_flips, after_midpoints, lengths_of_edges
 from .linear_energies import EnclosedForms
 from .midpoint_radius import Balls, check_arithmetic
 from .proved_energies import CombinedJumps, ProvedEnergies, orthonormal_combination
@@ -62,7 +63,7 @@ class EnclosedTriangulation(Triangulation):
             If glued sides have different lengths.
         """
         check_arithmetic()
-        return cls(K, cochains, basis, stored_lengths(K))
+        return cls(K, cochains, basis, lengths_of_edges(K))
 
     def flipped(self) -> EnclosedTriangulation:
         """The intrinsic Delaunay triangulation, or one near it.

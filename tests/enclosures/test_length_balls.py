@@ -19,6 +19,7 @@ from igl_periods.enclosures.length_balls import (
     after_barycentres,
     after_flips,
     after_midpoints,
+    lengths_of_edges,
     stored_lengths,
 )
 from igl_periods.enclosures.midpoint_radius import Balls
@@ -144,3 +145,34 @@ def test_glued_sides_must_have_the_same_length():
     lengths[0, 0] = np.nextafter(lengths[0, 0], 2.0)
     with pytest.raises(ip.ComplexError, match="glued sides must have exactly the same length"):
         stored_lengths(dataclasses.replace(K, lengths=lengths))
+
+
+def with_exact_lengths(K, exact):
+    exactly = dataclasses.replace(K)
+    object.__setattr__(exactly, "exact_lengths", exact)
+    return exactly
+
+
+def test_exact_lengths_are_contained_beside_the_stored_ones():
+    K = ip.DeltaComplex.from_squares([((0, 0), (0, 2)), ((0, 1), (0, 3))], 2)
+    stored = stored_lengths(K)
+
+    def exact(bits):
+        return [arb(m) if m == 0.5 else arb(0.5).sqrt() for m in stored.mid.tolist()]
+
+    balls = lengths_of_edges(with_exact_lengths(K, exact))
+    assert contained(balls, exact(BITS))
+    assert np.array_equal(balls.mid, stored.mid)
+    assert 1e-17 < balls.rad.max() < 1e-16
+    assert not lengths_of_edges(K).rad.any()
+    # A mollified surface is another one.
+    mollified = dataclasses.replace(K, mollification=1e-9)
+    assert not lengths_of_edges(with_exact_lengths(mollified, exact)).rad.any()
+
+
+@pytest.mark.parametrize("wrong", [1.001, np.nan])
+def test_exact_lengths_of_another_surface_are_refused(wrong):
+    K = SURFACES["gluing"]
+    other = with_exact_lengths(K, lambda bits: [arb(wrong * m) for m in stored_lengths(K).mid])
+    with pytest.raises(ip.ComplexError, match="they are lengths of different surfaces"):
+        lengths_of_edges(other)
