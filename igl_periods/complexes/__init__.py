@@ -58,6 +58,14 @@ from .gluings import (
 )
 from .glued_squares import periodic_grid, squares
 from .half_edges import edge_ends, forward_half_edges, half_edge_ends, walk_vertices
+from .exact_lengths import (
+    ExactLengths,
+    LengthsByKind,
+    by_kind,
+    circumradius,
+    lattice_length,
+    root_of,
+)
 from .delta_complex import DeltaComplex
 from .surface_checks import check_closed_and_oriented, check_connected, check_surface, is_orientable
 from .weights import cone_angles, cotan_weights, extrinsic_weights

@@ -133,6 +133,7 @@ def delaunay_flips(K: DeltaComplex) -> tuple[DeltaComplex, list[Flips]]:
         sign=mesh.sign.reshape(-1, 3),
         corner_vertex=mesh.corner_vertex.reshape(-1, 3),
         distortion=mesh.distortion,
+        exact_lengths=None,
     )
     return flipped, rounds
 

@@ -33,6 +33,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 
 import igl
 import numpy as np
@@ -60,6 +61,7 @@ from .gluings import (
     reversing_sides,
     twins_of_faces,
 )
+from .exact_lengths import ExactLengths, by_kind, root_of
 from .surface_checks import check_surface
 from .triangles import mollify
 
@@ -97,6 +99,10 @@ class DeltaComplex:
     distortion : (m,) float or None
         How much rounding may have changed the metric of each face since the complex was given,
         relative to it and in units of the machine epsilon; None where nothing was changed.
+    exact_lengths : function or None
+        The lengths of the edges as balls, for a precision in bits, where the doubles in ``lengths``
+        are rounded ones (:mod:`igl_periods.complexes.exact_lengths`); what is proved is proved about
+        these.  Where there is no such function, the doubles are the lengths, exactly.
     """
 
     lengths: Floats
@@ -110,6 +116,7 @@ class DeltaComplex:
     positions: Floats | None = None
     mollification: float = 0.0
     distortion: Floats | None = None
+    exact_lengths: ExactLengths | None = None
 
     def __post_init__(self) -> None:
         for array in (self.lengths, self.twin, self.edge, self.sign, self.corner_vertex):
@@ -223,7 +230,10 @@ class DeltaComplex:
         (4, 12, 8, 1)
         """
         lengths, twin = squares(gluing, n)
-        return _assemble(lengths, twin, np.zeros(twin.shape, dtype=bool))
+        K = _assemble(lengths, twin, np.zeros(twin.shape, dtype=bool))
+        diagonal = (K.lengths > 1.2 / n).astype(np.int64)
+        squared = [root_of(Fraction(1, n * n)), root_of(Fraction(2, n * n))]
+        return replace(K, exact_lengths=by_kind(K.edge, diagonal, squared))
 
     @property
     def n_faces(self) -> int:

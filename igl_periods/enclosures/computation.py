@@ -14,6 +14,7 @@ import time
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 from numbers import Real
 
 import flint
@@ -35,10 +36,11 @@ from .degrees import first_sizes, next_sizes, node_counts, stage_goals
 from .delaunay_moves import make_delaunay
 from .enclosure import PeriodEnclosure
 from .exact_lengths import ExactLengths, checked_balls
+from .float_energies import float_dirichlet_enclosure
+from .float_traces import coefficients_in_floats
 from .interface_nodes import InterfaceNodes
 from .least_squares import least_squares
 from .refinement import Refined, precision_of, refined
-from .series import Series
 from .surface_choice import surface_and_lengths
 from .trial_functions import trial_functions
 from .triangulation import Triangulation
@@ -50,11 +52,17 @@ MOST_DIGITS = 1000
 _GUARD_BITS = 48
 _MOST_BITS = 100_000
 # Digits by which jumps are to be smaller than 10^(−digits/2).
-_MARGIN = 0.7
+_MARGIN, _MARGIN_BY_SIZE = 0.4, 0.15
+# Expected digits beyond those that are wanted with which a proof is tried.
+_RESERVE = 0.5
 # Digits by which quadrature is to be more accurate than the result.
 _QUADRATURE_DIGITS = 8
+# So many digits, at most, are tried in double precision; radii of energies by which they would be
+# wrong are negligible if they are this much smaller.
+_DIGITS_IN_FLOATS, _NEGLIGIBLE = 13, 0.05
+_LOG_10 = float(np.log(10.0))
 # A stage that reaches less than this part of its goal is repeated, so often at most.
-_NEARLY, _MOST_REPETITIONS = 0.75, 4
+_NEARLY, _MOST_REPETITIONS = 0.75, 3
 # Seconds grow with this power of the number of unknowns, for estimates; entries of the Cholesky
 # factor over those of the normal equations.
 _COST_EXPONENT, _FILL = 2.5, 5.0
@@ -127,10 +135,9 @@ def enclose(
     marking = csr_array(csr_array(T.astype(np.int64)) @ cochains)
     basis = flint.arb_mat(T.astype(np.int64).tolist())
 
-    def prove(series: Series) -> PeriodEnclosure:
+    def prove(solution: Refined) -> PeriodEnclosure:
         with stage("energies in balls"), flint.ctx.workprec(bits):
-            raw = dirichlet_enclosure(triangulation, series, -np.log(10.0) * (digits + _QUADRATURE_DIGITS))
-            D = basis * raw * basis.transpose()
+            D = basis * _energies(triangulation, solution, digits) * basis.transpose()
         return PeriodEnclosure(D, marking, K, bits)
 
     best, reason = _best_enclosure(cells, prove, digits, limits)
@@ -165,10 +172,12 @@ def _cut(
 
 
 def _best_enclosure(
-    cells: Cells, prove: Callable[[Series], PeriodEnclosure], digits: int, limits: _Limits
+    cells: Cells, prove: Callable[[Refined], PeriodEnclosure], digits: int, limits: _Limits
 ) -> tuple[PeriodEnclosure, str]:
     """Solve in stages and prove; again with a higher goal as long as digits are missing."""
-    goals = stage_goals(0.5 * digits + _MARGIN)
+    # Energies add up the squares of the jumps of all cells.
+    margin = _MARGIN + _MARGIN_BY_SIZE * np.log10(cells.n_cells)
+    goals = stage_goals(0.5 * digits + margin)
     size = first_sizes(cells, goals[0])
     best: PeriodEnclosure | None = None
     repeated = 0
@@ -176,20 +185,26 @@ def _best_enclosure(
     while True:
         goal = goals.pop(0)
         with stage(f"series for jumps of 1e-{goal:.1f}"):
-            solution = limits.timed(lambda: _solution(cells, size, goal), size)
+            solution = limits.timed(partial(_solution, cells, size, goal), size)
         logger.info(
-            "jumps of 1e%.1f with %d functions on %d cells",
-            solution.residual, size.sum(), cells.n_cells,
+            "jumps of 1e%.1f with %d functions, about %.1f digits",
+            solution.residual,
+            size.sum(),
+            solution.expected_digits,
         )
-        if -solution.residual < _NEARLY * goal and repeated < _MOST_REPETITIONS:
-            goals.insert(0, goal)
+        expected = solution.expected_digits
+        if expected > digits + _RESERVE:
+            goals = []
+        nearly = -solution.residual > _NEARLY * goal if goals else expected > digits - _RESERVE
+        if not nearly and repeated < _MOST_REPETITIONS:
+            missing = 0.0 if goals else max(digits - expected, 0.0)
+            goals.insert(0, goal + 0.5 * missing)
             repeated += 1
-        target = goals[0] if goals else goal
-        size = next_sizes(cells, solution.sizes, solution.residual, target)
+        size = next_sizes(cells, solution.sizes, solution.jumps, goals[0] if goals else goal)
         reason = limits.exceeded_by(cells, size)
         if goals and not reason:
             continue
-        found = prove(solution.series)
+        found = prove(solution)
         gained = best is None or found.bound < best.bound
         best = found if gained else best
         assert best is not None
@@ -198,8 +213,8 @@ def _best_enclosure(
         if reason or not gained:
             return best, reason or "more trial functions do not help"
         missing = digits - _proved(found)
-        goals = [goal + 0.5 * missing + _MARGIN]
-        size = next_sizes(cells, solution.sizes, solution.residual, goals[0])
+        goals = [goal + 0.5 * missing + 0.5 * _MARGIN]
+        size = next_sizes(cells, solution.sizes, solution.jumps, goals[0])
         reason = limits.exceeded_by(cells, size)
         if reason:
             return best, reason
@@ -211,10 +226,28 @@ def _solution(cells: Cells, size: Ints, goal: float) -> Refined:
     return refined(problem, goal)
 
 
+def _energies(surface: Triangulation, solution: Refined, digits: int) -> flint.arb_mat:
+    """Energies in balls: in double precision where few digits are wanted and it can give them."""
+    cells = solution.problem.trial.nodes.cells
+    accuracy = digits + _QUADRATURE_DIGITS
+    if digits <= _DIGITS_IN_FLOATS:
+        coefficients = coefficients_in_floats(solution.problem.trial, solution.newton)
+        try:
+            raw = float_dirichlet_enclosure(surface, cells, coefficients, -_LOG_10 * accuracy)
+        except ComplexError as error:
+            logger.info("not in double precision: %s", error)
+        else:
+            radius = max(float(x.rad()) for x in raw.entries())
+            if radius < _NEGLIGIBLE * 10.0**-digits:
+                return raw
+            logger.info("double precision leaves energies unknown by %.2g", radius)
+    return dirichlet_enclosure(surface, solution.series, -_LOG_10 * accuracy)
+
+
 def _proved(found: PeriodEnclosure) -> float:
     """Proved digits, with fractions, also where they are negative."""
     with flint.ctx.workprec(64):
-        return -float(found.bound.log().mid()) / float(np.log(10.0))
+        return -float(found.bound.log().mid()) / _LOG_10
 
 
 @dataclass

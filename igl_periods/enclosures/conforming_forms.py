@@ -179,7 +179,7 @@ def _corrections(
     ends = [
         [[p(flint.acb(t)).real for p in polynomials] for t in (-1, 1)] for polynomials in traces
     ]
-    for corner, other in _shared_ends(surface):
+    for corner, other in shared_ends(surface):
         # The end of the chord at ``corner`` is the start of the one at ``other``.
         here, there = ends[corner][1], ends[other][0]
         excess = [
@@ -194,7 +194,7 @@ def _corrections(
     ]
 
 
-def _shared_ends(surface: Triangulation) -> Iterator[tuple[int, int]]:
+def shared_ends(surface: Triangulation) -> Iterator[tuple[int, int]]:
     """Each corner with the one before it around the vertex, across the side that leaves it."""
     for corner in range(len(surface.twin)):
         leaving = following(following(corner))

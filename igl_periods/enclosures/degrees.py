@@ -16,11 +16,16 @@ from igl_periods.arrays import Floats, Ints
 from .cells import Cells
 
 _GROWTH = 2.2
-_FIRST_GOAL = 7.0
+_FIRST_GOAL = 4.0
 _FEWEST = 4
-# Decimal digits for each unit of the radial degree kκ: of a first guess, at least, and at most.
+# The first radial degree kκ for each digit.
+_FIRST_RADIAL = 2.2
+# Decimal digits for each unit of the radial degree: where nothing is known, at least, at most.
 _RATE, _SLOWEST, _FASTEST = 0.3, 0.04, 1.2
-_MARGIN = 0.7
+_MARGIN = 0.3
+# Logarithms of sizes that are about the same; and how much larger than its last coefficient a jump
+# may be that is laid to a cell.
+_DOUBT, _MOST_BLAME = 0.5, 2.0
 
 
 def stage_goals(goal: float) -> list[float]:
@@ -33,41 +38,51 @@ def stage_goals(goal: float) -> list[float]:
 
 def first_sizes(cells: Cells, goal: float) -> Ints:
     """A number of functions for each cell, before anything is known."""
-    radial = goal / _RATE + 2.0
+    radial = _FIRST_RADIAL * goal + 2.0
     return np.maximum(_FEWEST, np.rint(radial / cells.exponents)).astype(np.int64)
 
 
-def next_sizes(cells: Cells, sizes: list[Floats], residual: float, goal: float) -> Ints:
-    """Numbers of functions for a residual of 10^−goal.
+def next_sizes(cells: Cells, sizes: list[Floats], jumps: Floats, goal: float) -> Ints:
+    """Numbers of functions for jumps of 10^−goal.
 
     Parameters
     ----------
     sizes : list of (K,) float
         Sizes of the coefficients of the Newton basis of each cell.
-    residual : float
-        The logarithm of the residual of that solution, to the base 10.
+    jumps : (n_interfaces,) float
+        The logarithm of the jumps of that solution, to the base 10.
     """
-    found = [
-        _extrapolated(a, float(kappa), residual, goal) for a, kappa in zip(sizes, cells.exponents)
-    ]
+    residual = float(jumps.max())
+    decays = [_decay(a, float(k), residual) for a, k in zip(sizes, cells.exponents)]
+    tail = np.array([level - rate * (a.size - n) for a, (n, level, rate) in zip(sizes, decays)])
+    # A jump is laid to the cell with the larger last coefficients, or to both.
+    blamed = np.full(cells.n_cells, -np.inf)
+    for here, there in ((0, 1), (1, 0)):
+        a, b = cells.cell[:, here], cells.cell[:, there]
+        guilty = tail[a] >= tail[b] - _DOUBT
+        np.maximum.at(blamed, a[guilty], jumps[guilty])
+    found = []
+    for a, (_, _, rate), last, jump in zip(sizes, decays, tail, blamed):
+        wanted = a.size + (max(last + _MARGIN, min(jump, last + _MOST_BLAME)) + goal) / rate
+        # Where hardly anything was known, do not believe in a few large or small coefficients.
+        most = 1.3 * _GROWTH * a.size + 10.0
+        found.append(int(np.ceil(np.clip(wanted, _FEWEST, most))))
     return np.array(found, dtype=np.int64)
 
 
-def _extrapolated(a: Floats, kappa: float, residual: float, goal: float) -> int:
+def _decay(a: Floats, kappa: float, residual: float) -> tuple[int, float, float]:
+    """How many coefficients mean something, the logarithm of the last one, and its decrease."""
     with np.errstate(divide="ignore"):
         envelope = np.maximum.accumulate(np.log10(a)[::-1])[::-1]
-    known = np.flatnonzero(envelope > residual - 0.5)
-    last = int(known[-1]) if known.size else 0
+    known = np.flatnonzero(envelope > residual - 1.0)
+    if known.size == 0:
+        return 0, residual, _RATE * kappa
+    last = int(known[-1])
     first = last // 2
-    rate = _RATE * kappa
-    if last > first:
-        rate = (envelope[first] - envelope[last]) / (last - first)
-    rate = float(np.clip(rate, _SLOWEST * kappa, _FASTEST * kappa))
-    level = float(envelope[last]) if known.size else residual
-    wanted = last + 1 + (level + goal + _MARGIN) / rate
-    # Where hardly anything was known, do not believe in a few large or small coefficients.
-    most = 1.3 * _GROWTH * a.size + 10.0
-    return int(np.ceil(np.clip(wanted, _FEWEST, most)))
+    rate = (envelope[first] - envelope[last]) / (last - first) if last > first else _RATE * kappa
+    return last + 1, float(envelope[last]), float(
+        np.clip(rate, _SLOWEST * kappa, _FASTEST * kappa)
+    )
 
 
 def node_counts(cells: Cells, size: Ints) -> Ints:

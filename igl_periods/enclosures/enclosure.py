@@ -232,7 +232,7 @@ class PeriodEnclosure:
             raise ValueError(f"this document holds no period enclosure ({error}).") from error
 
     def __reduce__(self) -> tuple[Any, ...]:
-        # python-flint's matrices do not pickle; as integers they do, exactly.
+        # python-flint's matrices do not pickle; as integers they do.
         exact = [to_integers(x) for x in self.dirichlet.entries()]
         return _unpickled, (exact, self.cocycles, self.complex, self.bits)
 

@@ -1,4 +1,4 @@
-r"""Balls as integers and as text, without loss.
+r"""Balls as integers and as text; what is read contains what was written.
 
 A ball has a midpoint m 2^e and a radius of the same form, four integers in all.  As text it is
 ``[midpoint +/- radius]`` in decimals, rounded outwards: the text denotes a ball that contains the
@@ -20,7 +20,7 @@ def to_integers(x: Arb) -> tuple[int, int, int, int]:
 
 
 def from_integers(mantissa: int, exponent: int, radius: int, radius_exponent: int) -> Arb:
-    """The ball that :func:`to_integers` was given."""
+    """A ball that contains the one that :func:`to_integers` was given, and hardly more."""
     return Arb(Arb((mantissa, exponent)), Arb((radius, radius_exponent)))
 
 

@@ -8,13 +8,11 @@ A proof is about one surface, so it must be said which.  There are three ways:
   they are stored: integers, fractions, or doubles, every one of which is a rational number;
 * otherwise the stored doubles are the lengths, exactly.
 
-Lengths are held here as the functions that compute them.  They are dataclasses on the top level of
-this module, so that a complex which carries one can be pickled.
+Lengths are functions of the precision (:mod:`igl_periods.complexes.exact_lengths`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -24,10 +22,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from igl_periods.arrays import Ints
-from igl_periods.complexes import DeltaComplex
+from igl_periods.complexes import DeltaComplex, ExactLengths
 from igl_periods.errors import ComplexError
 
-ExactLengths = Callable[[int], Sequence[flint.arb]]
 
 _AGREEMENT = 1e-6
 
@@ -41,22 +38,6 @@ class StoredLengths:
     def __call__(self, bits: int) -> list[flint.arb]:
         """The lengths of the edges."""
         return [flint.arb(length) for length in self.lengths]
-
-
-@dataclass(frozen=True)
-class SquareRoots:
-    """Square roots of rational numbers, one for each edge."""
-
-    squares: tuple[Fraction, ...]
-
-    def __call__(self, bits: int) -> list[flint.arb]:
-        """The lengths of the edges."""
-        with flint.ctx.workprec(bits):
-            known: dict[Fraction, flint.arb] = {}
-            for square in self.squares:
-                if square not in known:
-                    known[square] = _rational(square).sqrt()
-            return [known[square] for square in self.squares]
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,9 +86,8 @@ def distances(V: ArrayLike, K: DeltaComplex) -> Distances:
 
 def lengths_of(K: DeltaComplex) -> ExactLengths:
     """The function that gives the exact lengths of the edges of a complex."""
-    exact = getattr(K, "exact_lengths", None)
-    if exact is not None and K.mollification == 0.0:
-        return exact
+    if K.exact_lengths is not None and K.mollification == 0.0:
+        return K.exact_lengths
     stored = np.empty(K.n_edges)
     stored[K.edge.ravel()] = K.lengths.ravel()
     return StoredLengths(tuple(stored.tolist()))

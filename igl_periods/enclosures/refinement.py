@@ -13,6 +13,7 @@ precision is raised until the result is known well enough.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import flint
 import numpy as np
@@ -27,7 +28,7 @@ from .trial_functions import TrialFunctions
 Acb = flint.acb
 
 # A step that reduces the residual by less has met what the trial functions can do; by less than
-# the second number it may have, and is believed to where the goal is nearly reached.
+# the second number it may have, and is believed to in the first step, and where the goal is near.
 _LEAST_GAIN, _LIMITED, _NEARLY = 1e-4, 1e-9, 0.8
 _CORRECTIONS = 1
 # Digits by which a step reduces it otherwise.
@@ -40,16 +41,41 @@ class Refined:
 
     Attributes
     ----------
-    series : Series
-    sizes : list of (K,) float
-        The size of the coefficients of the Newton basis of each cell, largest over all forms.
-    residual : float
-        The largest jump at a node, as logarithm to the base 10.
+    problem : LeastSquares
+    newton : list of (K, k) complex
+        The coefficients of the Newton bases, in double precision.
+    jumps : (n_interfaces,) float
+        The largest jump at the nodes of each interface, as logarithm to the base 10.
     """
 
-    series: Series
-    sizes: list[Floats]
-    residual: float
+    problem: LeastSquares
+    newton: list[Complexes]
+    jumps: Floats
+    _expansion: Expansion
+    _before: Series | None
+    _last: tuple[list[Complexes], int]
+
+    @cached_property
+    def series(self) -> Series:
+        """The power series with all the digits that were computed."""
+        return self._expansion.added(self._before, *self._last)
+
+    @property
+    def residual(self) -> float:
+        """The largest jump at a node, as logarithm to the base 10."""
+        return float(self.jumps.max())
+
+    @property
+    def expected_digits(self) -> float:
+        """About as many digits as the energies will have: they add up the squares of jumps."""
+        # The mean jump on an interface is about a third of the largest one, mostly.
+        total = np.sum(10.0 ** (2.0 * (self.jumps - self.residual) - 1.0))
+        return -float(np.log10(total)) - 2.0 * self.residual
+
+    @property
+    def sizes(self) -> list[Floats]:
+        """Sizes of the coefficients of the Newton basis of each cell, largest over all forms."""
+        return [np.abs(a).max(axis=1, initial=0.0) for a in self.newton]
 
 
 def refined(problem: LeastSquares, goal: float) -> Refined:
@@ -71,14 +97,15 @@ def refined(problem: LeastSquares, goal: float) -> Refined:
     exponent = 0
     while True:
         update, left = _corrected_solution(problem, values, slopes)
-        series = expansion.added(series, update, exponent)
         total = [a + 2.0**exponent * b for a, b in zip(total, update)]
-        level = float(np.log10(2.0) * exponent + np.log10(max(left, 1e-300)))
+        jumps = np.log10(2.0) * exponent + np.log10(left)
+        level, gain = float(jumps.max()), float(left.max())
         # As long as double precision is what limits a step, the next one gains as much.  What it
         # leaves otherwise is what the trial functions cannot do.
-        done = left > _LIMITED and level < -_NEARLY * goal
-        if level <= -goal or left > _LEAST_GAIN or done:
-            return Refined(series, [np.abs(a).max(axis=1, initial=0.0) for a in total], level)
+        done = gain > _LIMITED and (series is None or level < -_NEARLY * goal)
+        if level <= -goal or gain > _LEAST_GAIN or done:
+            return Refined(problem, total, jumps, expansion, series, (update, exponent))
+        series = expansion.added(series, update, exponent)
         with flint.ctx.workprec(precision_of(-level + _GAIN)):
             exponent, values, slopes = _residual(nodes, series, tables)
 
@@ -98,15 +125,21 @@ def _jump_rows(nodes: InterfaceNodes) -> Floats:
 
 def _corrected_solution(
     problem: LeastSquares, values: Floats, slopes: Complexes
-) -> tuple[list[Complexes], float]:
-    """Solve, and solve again for what is left, in double precision; also the jumps left then."""
+) -> tuple[list[Complexes], Floats]:
+    """Solve, and solve again for what is left, in double precision; also the jumps left then.
+
+    Of the jumps the largest on each interface are given.
+    """
     update = problem.solve(values, slopes)
     for _ in range(_CORRECTIONS):
         update = [
             a + b for a, b in zip(update, problem.solve(*_left(problem, update, values, slopes)))
         ]
-    wanted = _left(problem, update, values, slopes)
-    return update, max(float(np.abs(x).max(initial=0.0)) for x in wanted)
+    nodes = problem.trial.nodes
+    left = np.full(nodes.cells.n_interfaces, 1e-300)
+    for jumps in _left(problem, update, values, slopes):
+        np.maximum.at(left, nodes.side_of_row // 2, np.abs(jumps).max(axis=1))
+    return update, left
 
 
 def _left(

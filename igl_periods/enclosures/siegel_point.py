@@ -80,10 +80,16 @@ def siegel_ball(D: ArbMat) -> SiegelBall:
     ComplexError
         If the balls are so large that nothing follows.
     """
-    X, Y = symplectic_mean(D)
-    M = normalised(D, X, Y)
+    unknown = ComplexError("the energies are known too badly for a period matrix.")
+    if not all(x.is_finite() for x in D.entries()):
+        raise unknown
+    try:
+        X, Y = symplectic_mean(D)
+        M = normalised(D, X, Y)
+    except ZeroDivisionError as error:
+        raise unknown from error
     if M is None:
-        raise ComplexError("the energies are known too badly for a period matrix.")
+        raise unknown
     return SiegelBall(X, Y, _largest_excess(M))
 
 
@@ -144,7 +150,7 @@ def _largest_excess(M: ArbMat) -> Arb:
     E = M - identity
     # Gershgorin's bound first: it also says on which scale to look.
     rows = [sum((abs(x) for x in row), Arb(0)).upper() for row in E.tolist()]
-    outer = max(rows)
+    outer = max(rows, default=Arb(0))
     if not outer.is_finite():
         raise ComplexError("the energies are known too badly for a period matrix.")
     if outer == 0:
