@@ -2,3 +2,4 @@
 
 from .computation import enclose as enclose
 from .enclosure import PeriodEnclosure as PeriodEnclosure
+from .proof import Proved as Proved
