@@ -39,7 +39,7 @@ Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 2.
 Bobenko, Springborn, "A discrete Laplace–Beltrami operator for simplicial surfaces" (2007).
 """
 
-from .triangles import angles, cotangents, double_areas, length_sensitivity
+from .triangles import angles, apexes, cotangents, double_areas, length_sensitivity
 from .checked_arrays import (
     check_equal_when_glued,
     check_finite,
@@ -70,13 +70,15 @@ from .delta_complex import DeltaComplex
 from .surface_checks import check_closed_and_oriented, check_connected, check_surface, is_orientable
 from .weights import cone_angles, cotan_weights, extrinsic_weights
 from .cochains import along_sides, primitive
-from .delaunay import cocircularity_allowance, delaunay_flips, intrinsic_delaunay, transport
+from .marked_complex import MarkedComplex
+from .delaunay import Flips, cocircularity_allowance, delaunay_flips, intrinsic_delaunay, transport
 from .midpoint_subdivision import split
 from .barycentre_insertion import insert_barycentres
-from .doubling import double, involution
+from .doubling import Involution, double, involution, lift
 
 __all__ = [
     "angles",
+    "apexes",
     "cotangents",
     "double_areas",
     "length_sensitivity",
@@ -108,12 +110,16 @@ __all__ = [
     "extrinsic_weights",
     "along_sides",
     "primitive",
+    "MarkedComplex",
     "cocircularity_allowance",
     "delaunay_flips",
+    "Flips",
     "intrinsic_delaunay",
     "transport",
     "split",
     "insert_barycentres",
     "double",
     "involution",
+    "lift",
+    "Involution",
 ]

@@ -29,10 +29,11 @@ converge geometrically, so that 100 digits take a degree of 200 and not a finer 
 
 The other modules prove the bound of a computed :class:`~igl_periods.PeriodMatrix`, at nearly the
 speed of floating point: ``midpoint_radius``, ``length_balls``, ``shapes``, ``linear_energies``,
-``polynomial_energies``, ``proved_energies``, ``relative_radius``, ``rigorous``.
+``polynomial_energies``, ``proved_energies``, ``relative_radius``, ``rigorous``, ``proof``.
 """
 
 from .enclosure import PeriodEnclosure
 from .computation import MOST_DIGITS, enclose
+from .proof import Proved
 
-__all__ = ["MOST_DIGITS", "PeriodEnclosure", "enclose"]
+__all__ = ["MOST_DIGITS", "PeriodEnclosure", "Proved", "enclose"]

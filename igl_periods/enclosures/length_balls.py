@@ -27,8 +27,7 @@ import numpy as np
 from flint import arb
 
 from igl_periods.arrays import Ints
-from igl_periods.complexes import DeltaComplex
-from igl_periods.complexes.delaunay import Flips
+from igl_periods.complexes import DeltaComplex, Flips
 from igl_periods.errors import ComplexError
 
 from .midpoint_radius import Balls

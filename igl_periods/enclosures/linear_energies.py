@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from igl_periods.arrays import Floats
-from igl_periods.harmonic.linear_forms import blocks
+from igl_periods.harmonic import blocks
 from igl_periods.run_log import progress
 
 from .midpoint_radius import UNIT, Balls, inner_products, total

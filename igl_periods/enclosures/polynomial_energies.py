@@ -41,6 +41,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 import flint
 import numpy as np
@@ -48,10 +49,7 @@ from flint import arb
 from scipy.sparse import csr_array
 
 from igl_periods.arrays import Floats, Ints
-from igl_periods.elements.least_energy import HighOrderForms
-from igl_periods.elements.placement import Elements
-from igl_periods.elements.reference_elements import ReferenceElement
-from igl_periods.elements.trace_system import jumps, unknowns
+from igl_periods.elements import Elements, HighOrderForms, ReferenceElement, jumps, unknowns
 from igl_periods.run_log import progress
 
 from .midpoint_radius import UNIT, Balls, gamma, inner_products, norms, total
@@ -165,8 +163,8 @@ def _on_blocks(forms: HighOrderForms, lengths: Balls) -> Iterator[Balls]:
             progress("energies in balls", done, n_faces)
             done += block.size
             u, error = _coefficients(forms, by_edge, elements, extension[block], block)
-            aspect, foot = _shapes(elements, block, lengths)
-            for X, radius in _gradients(tables, aspect, foot, elements.kappa[block], u, error):
+            shapes = _shapes(elements, block, lengths)
+            for X, radius in _gradients(tables, shapes, u, error):
                 yield _gram(X, radius)
 
 
@@ -196,31 +194,41 @@ def _coefficients(
     return np.ascontiguousarray(whole), np.hypot(rounding[:, 0], rounding[:, 1]) * _UP + _TINY
 
 
-def _shapes(elements: Elements, block: Ints, lengths: Balls) -> tuple[Balls, Balls]:
-    """Height over length of the side opposite the apex, and the foot of the height; (b,) each."""
+class _Shapes(NamedTuple):
+    """Faces seen from their apexes; (b,) balls.
+
+    Height over length of the side opposite the apex, the foot of the height on it, exponents.
+    """
+
+    aspect: Balls
+    foot: Balls
+    kappa: Balls
+
+
+def _shapes(elements: Elements, block: Ints, lengths: Balls) -> _Shapes:
     face, apex = elements.face[block], elements.apex[block]
     sides = lengths[face]
     double_area = double_areas(sides)
     check_known(double_area)
-    row = np.arange(face.size)
-    opposite = sides[row, apex]
+    opposite = sides[np.arange(face.size), apex]
     aspect = double_area / (opposite * opposite)
-    return aspect, aspect * cotangents(sides, double_area, (apex + 1) % 3)
+    foot = aspect * cotangents(sides, double_area, (apex + 1) % 3)
+    return _Shapes(aspect, foot, Balls.exact(elements.kappa[block]))
 
 
 def _gradients(
-    tables: EnclosedReference, aspect: Balls, foot: Balls, kappa: Floats, u: Floats, error: Floats
+    tables: EnclosedReference, shapes: _Shapes, u: Floats, error: Floats
 ) -> Iterator[tuple[Floats, Floats]]:
     """X_1 and X_2 at the points, (q, b, k), and how far they are off in norm over q, (b, k)."""
-    b = len(kappa)
-    exponent, by_group = Balls.exact(kappa), [u[group] for group in tables.groups]
+    aspect, foot, kappa = shapes
+    by_group = [u[group] for group in tables.groups]
     a, error_a = _sums(tables.by_tau, by_group, error)
     d, error_d = _sums(tables.by_s, by_group, error)
     size_a, size_d = _norms(a), _norms(d)
-    of_a = (exponent / aspect).sqrt()
-    of_d = (exponent * aspect).sqrt()
+    of_a = (kappa / aspect).sqrt()
+    of_d = (kappa * aspect).sqrt()
     across = tables.nodes[:, None] - foot[None, :]
-    slope = (across / of_d[None, :]).reshape(-1, b, 1)
+    slope = (across / of_d[None, :])[:, :, None]
     # The largest over the points of one face: radii are counted in norm over all points.
     steep, blur = slope.upper.max(axis=0), slope.rad.max(axis=0)
     wide, off = of_a.upper[:, None], of_a.rad[:, None]
@@ -229,7 +237,7 @@ def _gradients(
     radius = off * size_a + wide * error_a + blur * size_d + steep * error_d
     radius += 3.0 * UNIT * (wide * size_a + steep * size_d)
     yield first - second, radius * _UP + _TINY
-    down = (aspect / exponent).sqrt()
+    down = (aspect / kappa).sqrt()
     wide, off = down.upper[:, None], down.rad[:, None]
     radius = off * size_d + wide * (error_d + UNIT * size_d)
     yield down.mid[:, None] * d, radius * _UP + _TINY

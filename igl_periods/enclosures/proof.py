@@ -11,16 +11,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.sparse import csc_matrix, csr_array
+from scipy.sparse import csc_matrix
 
 from igl_periods.arrays import Ints
-from igl_periods.complexes import DeltaComplex
+from igl_periods.complexes import MarkedComplex
 from igl_periods.elements import HighOrderForms
 from igl_periods.errors import ComplexError
 from igl_periods.harmonic import CholeskyFactor
-from igl_periods.periods.certificate import Triangulation, combined_cochains
-from igl_periods.periods.matrix import PeriodMatrix
+from igl_periods.periods import PeriodMatrix
 from igl_periods.run_log import stage
 
 from .proved_energies import ProvedEnergies
@@ -39,32 +37,25 @@ class Proved:
 
     Attributes
     ----------
-    complex : DeltaComplex
+    given : MarkedComplex
         The surface as it was given.
-    cochains : (2g, n_edges) sparse int
-        Closed, on its edges.
-    basis : (2g, 2g) int
-        The canonical basis is ``basis`` times ``cochains``.
     """
 
-    complex: DeltaComplex
-    cochains: csr_array
-    basis: NDArray[np.int8]
+    given: MarkedComplex
 
     def triangulation(self, delaunay: bool) -> EnclosedTriangulation:
         """The surface as it was given, or its intrinsic Delaunay triangulation."""
-        basis = self.basis.astype(np.int64)
-        where = EnclosedTriangulation.of(self.complex, self.cochains, basis)
+        where = EnclosedTriangulation.of(self.given)
         if not delaunay:
             return where
         with stage("Delaunay flips"):
             return where.flipped()
 
-    def divided(self, where: Triangulation, faces: Ints) -> EnclosedTriangulation:
+    def divided(self, where: MarkedComplex, faces: Ints) -> EnclosedTriangulation:
         """Faces divided into three at their barycentres, then flipped."""
         return _enclosed(where).divided(faces)
 
-    def problem(self, where: Triangulation) -> tuple[csc_matrix, EnclosedProblem]:
+    def problem(self, where: MarkedComplex) -> tuple[csc_matrix, EnclosedProblem]:
         """The grounded Laplacian, and all else that :meth:`linear` needs of the triangulation."""
         return linear_problem(_enclosed(where))
 
@@ -74,7 +65,7 @@ class Proved:
         """From the harmonic forms that are linear on triangles."""
         return self._period_matrix(linear_proof(problem, factor, memory))
 
-    def high_order(self, where: Triangulation, forms: HighOrderForms) -> PeriodMatrix:
+    def high_order(self, where: MarkedComplex, forms: HighOrderForms) -> PeriodMatrix:
         """From forms of high degree."""
         with stage("energies"):
             return self._period_matrix(high_order_proof(_enclosed(where), forms))
@@ -83,8 +74,8 @@ class Proved:
         pm = PeriodMatrix(
             dirichlet=energies.dirichlet(),
             certified=True,
-            cocycles=combined_cochains(self.basis, self.cochains),
-            complex=self.complex,
+            cocycles=self.given.cocycles(),
+            complex=self.given.complex,
             rounding=energies.spread,
             proof=energies,
         )
@@ -97,7 +88,7 @@ class Proved:
         return pm
 
 
-def _enclosed(where: Triangulation) -> EnclosedTriangulation:
+def _enclosed(where: MarkedComplex) -> EnclosedTriangulation:
     """The triangulation, which this method made itself."""
     assert isinstance(where, EnclosedTriangulation)
     return where

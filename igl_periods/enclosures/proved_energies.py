@@ -33,8 +33,8 @@ from scipy.linalg import solve_triangular
 from scipy.sparse import csr_array
 
 from igl_periods.arrays import Complexes, Floats, Ints
-from igl_periods.harmonic.linear_forms import Jumps
-from igl_periods.symplectic import cholesky_factor, product
+from igl_periods.harmonic import Jumps, energy_factor
+from igl_periods.symplectic import product
 
 from .midpoint_radius import Balls
 from .relative_radius import BITS, energy_balls, relative_radius
@@ -111,7 +111,7 @@ def orthonormal_combination(D: Floats, cochains: csr_array) -> Floats:
         If D is not positive definite.
     """
     k = len(D)
-    W = solve_triangular(cholesky_factor(D), np.eye(k), lower=True)
+    W = solve_triangular(energy_factor(D), np.eye(k), lower=True)
     largest = int(np.abs(cochains.data).max(initial=1))
     return rounded_rows(W, max(k, 1) * largest)
 

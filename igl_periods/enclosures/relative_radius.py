@@ -77,7 +77,7 @@ def relative_radius(D: arb_mat, X: ArrayLike, Y: ArrayLike, basis: arb_mat | Non
     ------
     ValueError
         If X or Y is not exactly symmetric.
-    ComplexError
+    NotPositiveDefiniteError
         If Y is not positive definite.
     """
     real, imaginary = np.asarray(X, dtype=np.float64), np.asarray(Y, dtype=np.float64)

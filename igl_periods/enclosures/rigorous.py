@@ -25,13 +25,16 @@ import numpy as np
 from scipy.sparse import csc_matrix, csr_array
 
 from igl_periods.arrays import Floats, Ints
-from igl_periods.complexes import DeltaComplex, insert_barycentres
-from igl_periods.complexes.delaunay import delaunay_flips, transport
-from igl_periods.elements.least_energy import HighOrderForms, dirichlet_matrix
-from igl_periods.harmonic import CholeskyFactor
-from igl_periods.harmonic.energies import HarmonicProblem, harmonic_problem, panels_of_columns
-from igl_periods.harmonic.linear_forms import LinearForms, gram_matrix
-from igl_periods.periods.certificate import Triangulation
+from igl_periods.complexes import MarkedComplex, delaunay_flips, insert_barycentres, transport
+from igl_periods.elements import HighOrderForms, dirichlet_matrix
+from igl_periods.harmonic import (
+    CholeskyFactor,
+    HarmonicProblem,
+    LinearForms,
+    gram_matrix,
+    harmonic_problem,
+    panels_of_columns,
+)
 
 from . import linear_energies, polynomial_energies
 from .length_balls import after_barycentres, after_flips, after_midpoints, lengths_of_edges
@@ -41,7 +44,7 @@ from .proved_energies import CombinedJumps, ProvedEnergies, orthonormal_combinat
 
 
 @dataclass(frozen=True, eq=False)
-class EnclosedTriangulation(Triangulation):
+class EnclosedTriangulation(MarkedComplex):
     """A triangulation of a surface, with the lengths of its edges in balls.
 
     Attributes
@@ -52,7 +55,7 @@ class EnclosedTriangulation(Triangulation):
     lengths: Balls
 
     @classmethod
-    def of(cls, K: DeltaComplex, cochains: csr_array, basis: Ints) -> EnclosedTriangulation:
+    def of(cls, given: MarkedComplex) -> EnclosedTriangulation:
         """The triangulation as it is given, whose stored lengths are those of the surface.
 
         Raises
@@ -63,7 +66,8 @@ class EnclosedTriangulation(Triangulation):
             If glued sides have different lengths.
         """
         check_arithmetic()
-        return cls(K, cochains, basis, lengths_of_edges(K))
+        lengths = lengths_of_edges(given.complex)
+        return cls(given.complex, given.cochains, given.basis.astype(np.int64), lengths)
 
     def flipped(self) -> EnclosedTriangulation:
         """The intrinsic Delaunay triangulation, or one near it.

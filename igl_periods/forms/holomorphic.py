@@ -39,8 +39,8 @@ from scipy.sparse import csr_array
 
 from igl_periods.arrays import Complexes, Values
 from igl_periods.complexes import DeltaComplex
-from igl_periods.harmonic import checked_basis, harmonic_basis, side_matrix
-from igl_periods.symplectic import siegel_point, standard_form, williamson
+from igl_periods.harmonic import checked_basis, energy_factor, harmonic_basis, side_matrix
+from igl_periods.symplectic import siegel_point, standard_form, williamson_of_factor
 
 from .graph import DoubleGraph, double_graph
 
@@ -127,7 +127,7 @@ def symplectic_mean_forms(
     graph = K if isinstance(K, DoubleGraph) else double_graph(K)
     omega, D = harmonic_basis(graph.complex, graph.weights, cocycles)
     g = len(D) // 2
-    Pi = siegel_point(williamson(D)[1])
+    Pi = siegel_point(williamson_of_factor(energy_factor(D))[1])
     dual = -standard_form(g) @ np.linalg.solve(D, omega * graph.weights)
     return np.stack([form[:g] + Pi @ form[g:] for form in (omega, dual)], axis=1)
 

@@ -32,15 +32,18 @@ Chen, Davis, Hager, Rajamanickam, "Algorithm 887: CHOLMOD" (2008).
 """
 
 from .laplace_matrix import laplacian, outflow
-from .cholmod import CholeskyFactor, NotPositiveDefiniteError, factor, solve
+from .cholmod import CholeskyFactor, factor, solve
 from .potentials import factored, factored_laplacian, harmonic_potentials, solutions
 from .energies import (
     dirichlet_matrix,
     harmonic_energies,
     harmonic_problem,
+    HarmonicProblem,
     linear_energies,
+    panels_of_columns,
     weighted_energies,
 )
+from .linear_forms import Jumps, LinearForms, blocks, gram_matrix
 from .harmonic_cochains import (
     checked_basis,
     harmonic_basis,
@@ -49,9 +52,9 @@ from .harmonic_cochains import (
     side_matrix,
 )
 from .constant_forms import face_areas, linear_parts, spread_to_vertices
-from .excess import energy_excess
+from .excess import energy_excess, most_of
 from .rounding import (
-    POWER_STEPS,
+    energy_factor,
     TRIANGLE_ERROR,
     ULP,
     allowance_for_loss,
@@ -64,7 +67,6 @@ __all__ = [
     "outflow",
     "factored_laplacian",
     "CholeskyFactor",
-    "NotPositiveDefiniteError",
     "factor",
     "solve",
     "factored",
@@ -73,7 +75,13 @@ __all__ = [
     "dirichlet_matrix",
     "harmonic_energies",
     "harmonic_problem",
+    "HarmonicProblem",
     "linear_energies",
+    "panels_of_columns",
+    "Jumps",
+    "LinearForms",
+    "blocks",
+    "gram_matrix",
     "weighted_energies",
     "checked_basis",
     "harmonic_basis",
@@ -84,10 +92,11 @@ __all__ = [
     "linear_parts",
     "spread_to_vertices",
     "energy_excess",
+    "energy_factor",
+    "most_of",
     "allowance_for_loss",
     "extreme_sensitivity",
     "geometric_allowance",
-    "POWER_STEPS",
     "TRIANGLE_ERROR",
     "ULP",
 ]

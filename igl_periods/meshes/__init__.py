@@ -18,7 +18,7 @@ loops, the report says what keeps a mesh from having a period matrix.
 ==================  ===========================================================================
 """
 
-from .load import load_mesh
+from .load import load_mesh, split_components
 from .report import MeshReport
 from .surface_files import SURFACE_EXTENSIONS, components_by_genus, read_surface, surface_of
 
@@ -29,4 +29,5 @@ __all__ = [
     "read_surface",
     "SURFACE_EXTENSIONS",
     "surface_of",
+    "split_components",
 ]

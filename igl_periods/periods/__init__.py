@@ -37,9 +37,9 @@ from .matrix import PeriodMatrix, reduced_if_feasible, siegel_reduced
 from .certificate import certified_period_matrix
 from .adaptive_degree import ToleranceWarning
 from .computation import period_matrix, period_matrix_from_weights
-from .adaptive_mesh import refined_period_matrix
+from .adaptive_mesh import Refined, refined_period_matrix
 from .quality import MeshQuality, WIDE, mesh_quality
-from .extrapolation import Extrapolation, richardson
+from .extrapolation import Extrapolation, richardson, sampled_torus
 from .real_surfaces import real_structure
 
 __all__ = [
@@ -59,4 +59,6 @@ __all__ = [
     "Extrapolation",
     "richardson",
     "real_structure",
+    "sampled_torus",
+    "Refined",
 ]

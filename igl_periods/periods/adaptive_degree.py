@@ -28,6 +28,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from igl_periods.arrays import Floats
+from igl_periods.complexes import MarkedComplex
 from igl_periods.elements import (
     HighOrderForms,
     count_unknowns,
@@ -36,12 +37,12 @@ from igl_periods.elements import (
     separate_cones,
 )
 from igl_periods.errors import ComplexError
-from igl_periods.harmonic import factored
+from igl_periods.harmonic import energy_factor, factored, most_of
 from igl_periods.memory import available_memory
 from igl_periods.run_log import logger
 from igl_periods.symplectic import williamson_basis
 
-from .certificate import Method, Triangulation
+from .certificate import Method
 from .matrix import PeriodMatrix
 from .memory_estimates import high_order_memory, room_for_forms
 
@@ -64,7 +65,7 @@ class Attempt:
 
     Attributes
     ----------
-    triangulation : Triangulation
+    triangulation : MarkedComplex
     degree : int
     unknowns : int
     seconds : float
@@ -74,7 +75,7 @@ class Attempt:
         where the tolerance is met.
     """
 
-    triangulation: Triangulation
+    triangulation: MarkedComplex
     degree: int
     unknowns: int
     seconds: float
@@ -92,7 +93,7 @@ class Attempt:
 class Plan:
     """What to try next, and the time it should take, in seconds."""
 
-    triangulation: Triangulation
+    triangulation: MarkedComplex
     degree: int
     seconds: float
 
@@ -106,7 +107,7 @@ class Limits:
 
 
 def period_matrix_within(
-    triangulation: Triangulation,
+    triangulation: MarkedComplex,
     method: Method,
     tolerance: float,
     max_unknowns: int | None = None,
@@ -119,8 +120,8 @@ def period_matrix_within(
 
     Parameters
     ----------
-    triangulation : Triangulation
-        Of a closed, oriented, connected surface; best Delaunay.
+    triangulation : MarkedComplex
+        A closed, oriented, connected surface, before cone points are separated; best Delaunay.
     method : Method
         From forms to period matrices, and to finer triangulations.
     tolerance : float
@@ -165,7 +166,7 @@ def period_matrix_within(
 
 
 def _linear_attempt(
-    triangulation: Triangulation, method: Method, max_memory: float | None
+    triangulation: MarkedComplex, method: Method, max_memory: float | None
 ) -> Attempt:
     start = time.perf_counter()
     K = triangulation.complex
@@ -191,9 +192,9 @@ def _carried_out(plan: Plan, method: Method, tolerance: float) -> Attempt | str:
     return _logged(Attempt(where, plan.degree, len(forms.traces), seconds, result, excess))
 
 
-def _excess(forms: HighOrderForms, where: Triangulation, result: PeriodMatrix) -> Floats:
+def _excess(forms: HighOrderForms, where: MarkedComplex, result: PeriodMatrix) -> Floats:
     """The shares of the faces before cone points were separated."""
-    pairs = williamson_basis(result.dirichlet) @ where.basis
+    pairs = williamson_basis(energy_factor(result.dirichlet)) @ where.basis
     shares = energy_excess(forms, pairs).sum(axis=0)
     return np.asarray(shares.reshape(where.complex.n_faces, -1).sum(axis=1))
 
@@ -270,12 +271,9 @@ def _discretisation(attempt: Attempt) -> float:
 def _divided(last: Attempt, method: Method, target: float) -> tuple[float, Plan]:
     """The predicted cost of meeting the target by division, and the first round of it."""
     where = last.triangulation
-    order = np.argsort(-last.excess, kind="stable")
-    held = np.cumsum(last.excess[order])
-    marked = order[: 1 + int(np.searchsorted(held, _MARKED * held[-1]))]
-    finer = method.divided(where, marked)
-    separated, _ = separate_cones(finer.complex, finer.cochains)
-    growth = count_unknowns(separated, last.degree) / last.unknowns
+    faces = most_of(last.excess, _MARKED)
+    finer = method.divided(where, faces)
+    growth = count_unknowns(finer.after(separate_cones).complex, last.degree) / last.unknowns
     rounds = np.ceil(np.log(last.bound / target) / np.log(_ROUND_RATIO))
     cost = float(np.sum(growth ** np.arange(1.0, rounds + 1.0)))
     return cost, Plan(finer, last.degree, growth * last.seconds)
@@ -283,12 +281,12 @@ def _divided(last: Attempt, method: Method, target: float) -> tuple[float, Plan]
 
 def _unaffordable(plan: Plan, limits: Limits) -> str | None:
     """Why a plan is too large, if it is."""
-    K, cochains = separate_cones(plan.triangulation.complex, plan.triangulation.cochains)
+    separated = plan.triangulation.after(separate_cones)
     what = f"degree {plan.degree} on {plan.triangulation.complex.n_faces} faces takes"
-    unknowns = count_unknowns(K, plan.degree)
+    unknowns = count_unknowns(separated.complex, plan.degree)
     if limits.unknowns is not None and unknowns > limits.unknowns:
         return f"{what} {unknowns} unknowns, and {limits.unknowns} are the limit"
-    needed = high_order_memory(K, plan.degree, cochains.shape[0])
+    needed = high_order_memory(separated.complex, plan.degree, separated.rank)
     memory = available_memory() if limits.memory is None else limits.memory
     if needed > memory:
         return f"{what} about {needed / 1e9:.2g} GB of memory, and there are {memory / 1e9:.2g}"

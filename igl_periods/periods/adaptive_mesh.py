@@ -25,10 +25,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import partial
 
-import numpy as np
 from scipy.sparse import csr_array
 
-from igl_periods.arrays import Floats, Ints
+from igl_periods.arrays import Floats
 from igl_periods.complexes import (
     DeltaComplex,
     cotan_weights,
@@ -41,6 +40,7 @@ from igl_periods.harmonic import (
     energy_excess,
     geometric_allowance,
     harmonic_potentials,
+    most_of,
 )
 from igl_periods.run_log import stage
 from igl_periods.topology import cohomology_basis
@@ -114,7 +114,7 @@ def refined_period_matrix(
         with stage(f"refining {L.n_faces} faces"):
             if local:
                 excess = energy_excess(L, cochains, potentials, pm.dirichlet).sum(axis=0)
-                finer = insert_barycentres(L, cochains, _marked(excess)[: room // 2])
+                finer = insert_barycentres(L, cochains, most_of(excess, _MARKED_PART)[: room // 2])
             else:
                 finer = split(L, cochains)
             L, cochains = intrinsic_delaunay(*finer)
@@ -131,10 +131,3 @@ def _period_matrix(
     D = dirichlet_matrix(L, cochains, potentials)
     rounding = geometric_allowance(L, D, partial(dirichlet_matrix, L, cochains, potentials))
     return PeriodMatrix(D, True, cocycles, K, max(LEAST_ALLOWANCE, rounding))
-
-
-def _marked(excess: Floats) -> Ints:
-    """The fewest faces that hold half of the excess, the worst first."""
-    order = np.argsort(-excess, kind="stable")
-    held = np.cumsum(excess[order])
-    return order[: 1 + int(np.searchsorted(held, _MARKED_PART * held[-1]))]

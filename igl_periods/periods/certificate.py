@@ -11,18 +11,21 @@ floating point, with an allowance for rounding (:class:`WithAllowance`), or in b
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-from scipy.sparse import csc_matrix, csr_array
+from scipy.sparse import csc_matrix
 
 from igl_periods.arrays import Floats, Ints
-from igl_periods.complexes import DeltaComplex, insert_barycentres, intrinsic_delaunay
+from igl_periods.complexes import MarkedComplex, insert_barycentres, intrinsic_delaunay
 from igl_periods.elements import HighOrderForms, dirichlet_matrix, rounding_allowance
 from igl_periods.errors import ComplexError
-from igl_periods.harmonic import CholeskyFactor, harmonic_energies, harmonic_problem
-from igl_periods.harmonic.energies import HarmonicProblem
+from igl_periods.harmonic import (
+    CholeskyFactor,
+    HarmonicProblem,
+    harmonic_energies,
+    harmonic_problem,
+)
 from igl_periods.run_log import stage
 
 from .matrix import PeriodMatrix
@@ -32,43 +35,25 @@ from .rounding import LEAST_ALLOWANCE, combined, congruence
 _LARGEST_ROUNDING = 1.0
 
 
-@dataclass(frozen=True, eq=False)
-class Triangulation:
-    """A triangulation of the surface with the marking on it, before cone points are separated.
-
-    Attributes
-    ----------
-    complex : DeltaComplex
-    cochains : (2g, n_edges) sparse int
-        Closed.
-    basis : (2g, 2g) int
-        The matrix T for which T cochains is a canonical basis.
-    """
-
-    complex: DeltaComplex
-    cochains: csr_array
-    basis: Ints
-
-
 class Method(Protocol):
     """From a surface and forms on it to a period matrix with a bound.
 
     Triangulations are handed from each step to the next, and are those of the method itself.
     """
 
-    def triangulation(self, delaunay: bool) -> Triangulation:
+    def triangulation(self, delaunay: bool) -> MarkedComplex:
         """The surface as it was given, or its intrinsic Delaunay triangulation."""
 
-    def divided(self, where: Triangulation, faces: Ints) -> Triangulation:
+    def divided(self, where: MarkedComplex, faces: Ints) -> MarkedComplex:
         """Faces divided into three at their barycentres, then flipped."""
 
-    def problem(self, where: Triangulation) -> tuple[csc_matrix, Any]:
+    def problem(self, where: MarkedComplex) -> tuple[csc_matrix, Any]:
         """The grounded Laplacian, and all else that :meth:`linear` needs of the triangulation."""
 
     def linear(self, problem: Any, factor: CholeskyFactor, memory: float | None) -> PeriodMatrix:
         """From the harmonic forms that are linear on triangles."""
 
-    def high_order(self, where: Triangulation, forms: HighOrderForms) -> PeriodMatrix:
+    def high_order(self, where: MarkedComplex, forms: HighOrderForms) -> PeriodMatrix:
         """From forms of high degree."""
 
 
@@ -78,32 +63,24 @@ class WithAllowance:
 
     Attributes
     ----------
-    complex : DeltaComplex
+    given : MarkedComplex
         The surface as it was given.
-    cochains : (2g, n_edges) sparse int
-        Closed, on its edges.
-    basis : (2g, 2g) int
-        The canonical basis is ``basis`` times ``cochains``.
     """
 
-    complex: DeltaComplex
-    cochains: csr_array
-    basis: NDArray[np.int8]
+    given: MarkedComplex
 
-    def triangulation(self, delaunay: bool) -> Triangulation:
+    def triangulation(self, delaunay: bool) -> MarkedComplex:
         """The surface as it was given, or its intrinsic Delaunay triangulation."""
-        K, cochains = self.complex, self.cochains
-        if delaunay:
-            with stage("Delaunay flips"):
-                K, cochains = intrinsic_delaunay(K, cochains)
-        return Triangulation(K, cochains, self.basis.astype(np.int64))
+        if not delaunay:
+            return self.given
+        with stage("Delaunay flips"):
+            return self.given.after(intrinsic_delaunay)
 
-    def divided(self, where: Triangulation, faces: Ints) -> Triangulation:
+    def divided(self, where: MarkedComplex, faces: Ints) -> MarkedComplex:
         """Faces divided into three at their barycentres, then flipped."""
-        finer = insert_barycentres(where.complex, where.cochains, faces)
-        return Triangulation(*intrinsic_delaunay(*finer), where.basis)
+        return where.after(partial(insert_barycentres, faces=faces)).after(intrinsic_delaunay)
 
-    def problem(self, where: Triangulation) -> tuple[csc_matrix, HarmonicProblem]:
+    def problem(self, where: MarkedComplex) -> tuple[csc_matrix, HarmonicProblem]:
         """The grounded Laplacian, and all else that :meth:`linear` needs of the triangulation."""
         return harmonic_problem(where.complex, where.cochains)
 
@@ -111,24 +88,33 @@ class WithAllowance:
         self, problem: HarmonicProblem, factor: CholeskyFactor, memory: float | None
     ) -> PeriodMatrix:
         """From the harmonic forms that are linear on triangles."""
-        return self.certified(*harmonic_energies(problem, factor, memory))
+        return certified_period_matrix(self.given, *harmonic_energies(problem, factor, memory))
 
-    def high_order(self, where: Triangulation, forms: HighOrderForms) -> PeriodMatrix:
+    def high_order(self, where: MarkedComplex, forms: HighOrderForms) -> PeriodMatrix:
         """From forms of high degree."""
         with stage("energies"):
             D = dirichlet_matrix(forms)
-            return self.certified(D, rounding_allowance(forms, D))
-
-    def certified(self, raw: Floats, allowance: float) -> PeriodMatrix:
-        """From the energies of forms in the classes of the cochains."""
-        return certified_period_matrix(self.complex, self.cochains, self.basis, raw, allowance)
+            return certified_period_matrix(self.given, D, rounding_allowance(forms, D))
 
 
-def certified_period_matrix(
-    K: DeltaComplex, cochains: csr_array, T: NDArray[np.int8], raw: Floats, allowance: float
-) -> PeriodMatrix:
-    """The period matrix in the canonical basis T c, from energies in the classes c."""
-    D, loss = congruence(T, raw)
+def certified_period_matrix(given: MarkedComplex, raw: Floats, allowance: float) -> PeriodMatrix:
+    """The period matrix in the canonical basis, from energies in the classes of the cochains.
+
+    Parameters
+    ----------
+    given : MarkedComplex
+        The surface as it was given, before any flip.
+    raw : (2g, 2g) float
+        Energies of explicit forms in the classes of ``given.cochains``.
+    allowance : float
+        What rounding can have changed in them, relative to them.
+
+    Raises
+    ------
+    ComplexError
+        If that is so much that nothing is known of the matrix.
+    """
+    D, loss = congruence(given.basis, raw)
     rounding = combined(allowance, loss)
     if rounding > _LARGEST_ROUNDING:
         raise ComplexError(
@@ -139,12 +125,7 @@ def certified_period_matrix(
     return PeriodMatrix(
         dirichlet=D,
         certified=True,
-        cocycles=combined_cochains(T, cochains),
-        complex=K,
+        cocycles=given.cocycles(),
+        complex=given.complex,
         rounding=max(LEAST_ALLOWANCE, rounding),
     )
-
-
-def combined_cochains(T: NDArray[np.int8], cochains: csr_array) -> csr_array:
-    """The cochains T c, with integers that have room."""
-    return csr_array(csr_array(T.astype(np.int64)) @ cochains)

@@ -11,23 +11,18 @@ compared entry by entry.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
-from scipy.sparse import csr_array
+from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Floats
-from igl_periods.complexes import DeltaComplex, extrinsic_weights
+from igl_periods.complexes import DeltaComplex, MarkedComplex, extrinsic_weights
 from igl_periods.elements import high_order_forms, separate_cones
-from igl_periods.harmonic import (
-    factored,
-    harmonic_potentials,
-    weighted_energies,
-)
+from igl_periods.harmonic import factored, harmonic_potentials, weighted_energies
 from igl_periods.run_log import stage
-from igl_periods.topology import cochains_and_basis
+from igl_periods.topology import mark
 
 from .adaptive_degree import period_matrix_within
 from .arguments import as_complex, check_options, edge_weights
-from .certificate import Method, WithAllowance, combined_cochains
+from .certificate import Method, WithAllowance
 from .matrix import PeriodMatrix
 from .memory_estimates import check_high_order, room_for_forms
 
@@ -120,15 +115,14 @@ def period_matrix(
     if weights == "extrinsic":
         return _uncertified(K, extrinsic_weights(K))
     with stage("homology"):
-        cochains, T = cochains_and_basis(K)
-    method = _method(K, cochains, T, rigorous)
+        given = mark(K)
+    method = _method(given, rigorous)
     if tolerance is not None:
         where = method.triangulation(delaunay)
         return period_matrix_within(where, method, tolerance, max_unknowns, max_memory)
     if degree > 1:
         where = method.triangulation(delaunay)
-        separated, _ = separate_cones(where.complex, where.cochains)
-        check_high_order(separated, degree, cochains.shape[0], max_memory)
+        check_high_order(where.after(separate_cones).complex, degree, given.rank, max_memory)
         with stage(f"forms of degree {degree}"):
             forms = high_order_forms(where.complex, where.cochains, degree)
         return method.high_order(where, forms)
@@ -168,21 +162,22 @@ def period_matrix_from_weights(rho: ArrayLike, twin: ArrayLike) -> PeriodMatrix:
     return _uncertified(K, edge_weights(K, rho))
 
 
-def _method(K: DeltaComplex, cochains: csr_array, T: NDArray[np.int8], rigorous: bool) -> Method:
+def _method(given: MarkedComplex, rigorous: bool) -> Method:
     """How energies are computed, in floating point or in balls."""
     if not rigorous:
-        return WithAllowance(K, cochains, T)
+        return WithAllowance(given)
     # The only step upwards: enclosures know period matrices, and prove them here.
-    from igl_periods.enclosures.proof import Proved
+    from igl_periods.enclosures import Proved
 
-    return Proved(K, cochains, T)
+    return Proved(given)
 
 
 def _uncertified(K: DeltaComplex, rho: Floats) -> PeriodMatrix:
     with stage("homology"):
-        cochains, T = cochains_and_basis(K)
+        given = mark(K)
     with stage("harmonic forms"):
-        potentials = harmonic_potentials(K, rho, cochains)
+        potentials = harmonic_potentials(K, rho, given.cochains)
     with stage("energies"):
-        D = T @ weighted_energies(K, rho, cochains, potentials) @ T.T
-        return PeriodMatrix(D, certified=False, cocycles=combined_cochains(T, cochains), complex=K)
+        raw = weighted_energies(K, rho, given.cochains, potentials)
+        D = given.basis @ raw @ given.basis.T
+        return PeriodMatrix(D, certified=False, cocycles=given.cocycles(), complex=K)

@@ -59,9 +59,9 @@ from scipy.sparse import csr_array
 from igl_periods.arrays import Complexes, Floats, Ints
 from igl_periods.complexes import DeltaComplex
 from igl_periods.errors import ComplexError, NotASiegelPointError
+from igl_periods.harmonic import energy_factor
 from igl_periods.siegel import SIEGEL_GENUS_LIMIT, check_symplectic, siegel_reduce, to_flint
 from igl_periods.symplectic import (
-    cholesky_factor,
     form_action,
     product,
     siegel_point,
@@ -141,7 +141,7 @@ class PeriodMatrix:
 
     @cached_property
     def _factor(self) -> Floats:
-        return cholesky_factor(self.dirichlet)
+        return energy_factor(self.dirichlet)
 
     @cached_property
     def _williamson(self) -> tuple[Floats, Floats]:

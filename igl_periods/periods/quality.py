@@ -31,6 +31,7 @@ from igl_periods.harmonic import (
     dirichlet_matrix,
     energy_excess,
     harmonic_potentials,
+    most_of,
     spread_to_vertices,
 )
 from igl_periods.topology import cohomology_basis
@@ -98,8 +99,7 @@ class MeshQuality:
     @property
     def half_of_the_bound(self) -> int:
         """The least number of faces in which half of the bound originates."""
-        held = np.cumsum(np.sort(self.excess)[::-1])
-        return 1 + int(np.searchsorted(held, 0.5 * held[-1]))
+        return len(most_of(self.excess, 0.5))
 
 
 def mesh_quality(K: DeltaComplex) -> MeshQuality:

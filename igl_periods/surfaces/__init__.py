@@ -39,6 +39,7 @@ from .cube_solids import menger_sponge, thickened_lattice
 from .voxels import voxel_surface
 from .named_surfaces import catalogue
 from .identification import Identification, identify
+from .named_surface import NamedSurface
 
 __all__ = [
     "glued_rectangles",
@@ -72,4 +73,5 @@ __all__ = [
     "catalogue",
     "Identification",
     "identify",
+    "NamedSurface",
 ]

@@ -5,11 +5,11 @@ import dataclasses
 import flint
 import numpy as np
 import pytest
-from ball_arithmetic import BITS
-from energies_in_300_bits import flipped_surface
 from flint import arb
-from random_surfaces import noisy_torus, random_gluing, random_lengths
 from scipy.sparse import csr_array
+from support.ball_arithmetic import BITS
+from support.energies_in_300_bits import flipped_surface
+from support.random_surfaces import noisy_torus, random_gluing, random_lengths
 
 import igl_periods as ip
 from igl_periods.complexes import insert_barycentres, split

@@ -1,10 +1,12 @@
 """Energies of linear forms in balls: recomputed in 300 bits, on the worst of surfaces."""
 
-import energies_in_300_bits
 import numpy as np
 import pytest
-from delaunay_surfaces import distorted
-from random_surfaces import (
+from support import energies_in_300_bits
+from support.delaunay_surfaces import distorted
+from support.enclosed_forms import enclosed
+from support.extreme_surfaces import capped_torus, spiked_torus
+from support.random_surfaces import (
     BOLZA,
     L_SHAPE,
     needle_gluing,
@@ -14,29 +16,11 @@ from random_surfaces import (
 )
 
 import igl_periods as ip
-from igl_periods.complexes.delaunay import delaunay_flips
 from igl_periods.enclosures.linear_energies import enclosed_energies
 from igl_periods.enclosures.midpoint_radius import Balls
 from igl_periods.enclosures.rigorous import EnclosedTriangulation, nearly_orthonormal
 from igl_periods.harmonic import factored, harmonic_problem
-from igl_periods.topology import cochains_and_basis
-
-
-def spiked_torus(height, seed):
-    """One vertex far outside: its triangles are needles."""
-    V, F = noisy_torus(6, 5, 0.2, seed)
-    V[7] *= height / np.linalg.norm(V[7])
-    return ip.DeltaComplex.from_mesh(V, F)
-
-
-def capped_torus(height, seed):
-    """Vertices nearly on the edges opposite to them."""
-    rng = np.random.default_rng(seed)
-    V, F = noisy_torus(6, 5, 0.1, seed)
-    for f in rng.choice(len(F), 5, replace=False):
-        a, b, c = F[f]
-        V[a] = 0.5 * (V[b] + V[c]) + height * rng.normal(size=3)
-    return ip.DeltaComplex.from_mesh(V, F)
+from igl_periods.topology import mark
 
 
 def surfaces():
@@ -59,21 +43,6 @@ def surfaces():
 CASES = [
     pytest.param(part, id=name) for name, K in surfaces() for part in K.components() if part.genus
 ]
-
-
-def enclosed(K, flips=True):
-    """Forms on K with their energies in balls, and the same energies in 300 bits."""
-    cochains, T = cochains_and_basis(K)
-    where = EnclosedTriangulation.of(K, cochains, T.astype(np.int64))
-    where = where.flipped() if flips else where
-    laplacian, problem = harmonic_problem(where.complex, where.cochains)
-    forms, _ = problem.forms(slice(0, cochains.shape[0]), factored(laplacian))
-    sides = where.lengths[where.complex.edge]
-    orthonormal, W = nearly_orthonormal(forms, where.cochains, sides)
-    rounds = delaunay_flips(K)[1] if flips else []
-    surface = energies_in_300_bits.flipped_surface(K, cochains, rounds)
-    exact = energies_in_300_bits.linear_energies(surface, orthonormal.potentials, W)
-    return orthonormal, enclosed_energies(orthonormal), exact
 
 
 @pytest.mark.parametrize("K", CASES)
@@ -115,14 +84,14 @@ def test_bad_solutions_stay_enclosed(seed):
     # Noise of any size in the potentials: a worse form, of a larger energy, in the same class.
     rng = np.random.default_rng(seed)
     K = distorted(L_SHAPE, 2, 0.15, seed)
-    cochains, T = cochains_and_basis(K)
-    where = EnclosedTriangulation.of(K, cochains, T.astype(np.int64))
-    laplacian, problem = harmonic_problem(K, cochains)
-    forms, _ = problem.forms(slice(0, cochains.shape[0]), factored(laplacian))
+    given = mark(K)
+    where = EnclosedTriangulation.of(given)
+    laplacian, problem = harmonic_problem(K, given.cochains)
+    forms, _ = problem.forms(slice(0, given.rank), factored(laplacian))
     noise = 10.0 ** rng.uniform(-12, 3) * rng.normal(size=forms.potentials.shape)
     worse = type(forms)(forms.faces, forms.jumps, forms.potentials + noise)
-    enclosed_forms, W = nearly_orthonormal(worse, cochains, where.lengths[K.edge])
+    enclosed_forms, W = nearly_orthonormal(worse, given.cochains, where.lengths[K.edge])
     energies = enclosed_energies(enclosed_forms)
-    surface = energies_in_300_bits.flipped_surface(K, cochains, [])
+    surface = energies_in_300_bits.flipped_surface(K, given.cochains, [])
     exact = energies_in_300_bits.linear_energies(surface, enclosed_forms.potentials, W)
     assert energies_in_300_bits.contains(energies, exact)

@@ -4,12 +4,12 @@ import dataclasses
 
 import numpy as np
 import pytest
-from delaunay_surfaces import distorted
-from energies_in_300_bits import contains, flipped_surface, polynomial_energies
 from flint import arb, arb_mat
-from random_surfaces import L_SHAPE, needle_gluing, noisy_torus
 from scipy.sparse import csr_array
-from test_linear_energies import capped_torus, spiked_torus
+from support.delaunay_surfaces import distorted
+from support.energies_in_300_bits import contains, flipped_surface, polynomial_energies
+from support.extreme_surfaces import capped_torus, spiked_torus
+from support.random_surfaces import L_SHAPE, needle_gluing, noisy_torus
 
 import igl_periods as ip
 from igl_periods.complexes.delaunay import delaunay_flips
@@ -22,7 +22,7 @@ from igl_periods.enclosures.midpoint_radius import Balls
 from igl_periods.enclosures.polynomial_energies import enclosed_energies, enclosed_reference
 from igl_periods.enclosures.proved_energies import orthonormal_combination
 from igl_periods.enclosures.rigorous import EnclosedTriangulation
-from igl_periods.topology import cochains_and_basis
+from igl_periods.topology import cochains_and_basis, mark
 
 
 def surfaces():
@@ -75,14 +75,13 @@ def exact_coefficients(forms):
 
 def recomputed(K, make_forms):
     """Forms near orthonormal, their energies in balls, and in 300 bits."""
-    cochains, T = cochains_and_basis(K)
-    where = EnclosedTriangulation.of(K, cochains, T.astype(np.int64)).flipped()
+    where = EnclosedTriangulation.of(mark(K)).flipped()
     forms = make_forms(where.complex, where.cochains)
     W = orthonormal_combination(dirichlet_matrix(forms), forms.cochains)
     forms = dataclasses.replace(
         forms, cochains=csr_array(csr_array(W) @ forms.cochains), traces=forms.traces @ W.T
     )
-    surface = flipped_surface(K, cochains, delaunay_flips(K)[1])
+    surface = flipped_surface(K, mark(K).cochains, delaunay_flips(K)[1])
     divided = forms.complex is not where.complex
     balls = after_midpoints(where.complex, where.lengths) if divided else where.lengths
     energies = enclosed_energies(forms, balls[forms.complex.edge])

@@ -6,12 +6,12 @@ from fractions import Fraction
 import flint
 import numpy as np
 import pytest
-from delaunay_surfaces import distorted
 from flint import arb, arb_mat
-from modular_words import random_word
-from random_surfaces import BOLZA, L_SHAPE
 from scipy.sparse import csr_array
-from test_linear_energies import enclosed
+from support.delaunay_surfaces import distorted
+from support.enclosed_forms import enclosed
+from support.modular_words import random_word
+from support.random_surfaces import BOLZA, L_SHAPE
 
 import igl_periods as ip
 from igl_periods.enclosures.proved_energies import (

@@ -3,8 +3,8 @@
 import flint
 import numpy as np
 import pytest
-from ball_arithmetic import BITS, area
 from flint import arb
+from support.ball_arithmetic import BITS, area
 
 import igl_periods as ip
 from igl_periods.enclosures.midpoint_radius import Balls
