@@ -50,6 +50,7 @@ from .checked_arrays import (
     checked_lengths,
     checked_positions,
 )
+from .exact_lengths import ExactLengths, by_kind, root_of
 from .glued_squares import squares
 from .gluings import (
     checked_same,
@@ -61,7 +62,6 @@ from .gluings import (
     reversing_sides,
     twins_of_faces,
 )
-from .exact_lengths import ExactLengths, by_kind, root_of
 from .surface_checks import check_surface
 from .triangles import mollify
 
@@ -101,7 +101,7 @@ class DeltaComplex:
         relative to it and in units of the machine epsilon; None where nothing was changed.
     exact_lengths : function or None
         The lengths of the edges as balls, for a precision in bits, where the doubles in ``lengths``
-        are rounded ones (:mod:`igl_periods.complexes.exact_lengths`); what is proved is proved about
+        are rounded (:mod:`igl_periods.complexes.exact_lengths`); what is proved is proved about
         these.  Where there is no such function, the doubles are the lengths, exactly.
     """
 

@@ -45,9 +45,7 @@ class LengthsByKind:
         return [values[k] for k in self.kind.tolist()]
 
 
-def by_kind(
-    edge: Ints, kind: Ints, formulas: Sequence[Callable[[], flint.arb]]
-) -> LengthsByKind:
+def by_kind(edge: Ints, kind: Ints, formulas: Sequence[Callable[[], flint.arb]]) -> LengthsByKind:
     """Lengths whose kinds are known for the sides of all faces, (m, 3) int like ``edge``."""
     of_edge = np.zeros(int(edge.max()) + 1, dtype=np.int64)
     of_edge[edge.ravel()] = kind.ravel()

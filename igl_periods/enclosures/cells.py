@@ -260,9 +260,7 @@ def _chord(
     on_face = a + back * (c - a), a + out * (b - a)
     # In the plane with the vertex at 0 and the leaving side on the positive axis.
     length = surface.length(_leaving(corner))
-    x, y = foot_and_height(
-        length, surface.length(following(corner)), surface.length(corner)
-    )
+    x, y = foot_and_height(length, surface.length(following(corner)), surface.length(corner))
     return on_face, (Acb(out * length), Acb(back * x, back * y))
 
 

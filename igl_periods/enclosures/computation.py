@@ -1,6 +1,6 @@
 r"""From a surface to its period matrix in balls: the steps, one after the other.
 
-    K ─ homology ▶ cochains ─ exact lengths, Delaunay moves ▶ triangulation ─ stars and faces ▶ cells
+    K ─ homology ▶ cochains ─ exact lengths, Delaunay moves ▶ triangulation ─ cut ▶ cells
       ─ degrees ▶ trial functions ─ least squares, refinement ▶ series
       ─ conforming forms, quadrature ▶ D in balls ─ Siegel point ▶ Π in balls
 
@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
 from igl_periods.arrays import Ints
-from igl_periods.complexes import DeltaComplex
+from igl_periods.complexes import DeltaComplex, ExactLengths
 from igl_periods.errors import ComplexError, MemoryLimitError
 from igl_periods.memory import available_memory
 from igl_periods.periods import ToleranceWarning
@@ -33,9 +33,9 @@ from igl_periods.topology import cochains_and_basis
 from .cells import Cells, cells_of
 from .conforming_forms import dirichlet_enclosure
 from .degrees import first_sizes, next_sizes, node_counts, stage_goals
-from .delaunay_moves import make_delaunay
+from .delaunay_moves import improve_shapes, make_delaunay
 from .enclosure import PeriodEnclosure
-from .exact_lengths import ExactLengths, checked_balls
+from .exact_lengths import checked_balls
 from .float_energies import float_dirichlet_enclosure
 from .float_traces import coefficients_in_floats
 from .interface_nodes import InterfaceNodes
@@ -60,7 +60,10 @@ _QUADRATURE_DIGITS = 8
 # So many digits, at most, are tried in double precision; radii of energies by which they would be
 # wrong are negligible if they are this much smaller.
 _DIGITS_IN_FLOATS, _NEGLIGIBLE = 13, 0.05
+_STALLED = "more trial functions do not help"
 _LOG_10 = float(np.log(10.0))
+# Triangles with a circumradius above so many shortest sides are divided.
+_RATIO, _RATIO_FOR_FEW_DIGITS = 1.6, 4.0
 # A stage that reaches less than this part of its goal is repeated, so often at most.
 _NEARLY, _MOST_REPETITIONS = 0.75, 3
 # Seconds grow with this power of the number of unknowns, for estimates; entries of the Cholesky
@@ -159,6 +162,8 @@ def _cut(
         with flint.ctx.workprec(bits):
             triangulation = Triangulation.of(K, checked_balls(lengths, K, bits), cochains)
             make_delaunay(triangulation)
+            few = digits <= _DIGITS_IN_FLOATS
+            improve_shapes(triangulation, _RATIO_FOR_FEW_DIGITS if few else _RATIO)
             cells = cells_of(triangulation)
         missing = precision_of(digits) - _GUARD_BITS - cells.accuracy_in_bits()
         if missing <= 0:
@@ -180,6 +185,7 @@ def _best_enclosure(
     goals = stage_goals(0.5 * digits + margin)
     size = first_sizes(cells, goals[0])
     best: PeriodEnclosure | None = None
+    closest: Refined | None = None
     repeated = 0
     limits.check_memory(cells, size)
     while True:
@@ -192,26 +198,29 @@ def _best_enclosure(
             size.sum(),
             solution.expected_digits,
         )
+        if closest is None or solution.residual < closest.residual:
+            closest = solution
+        stalled = solution is not closest
         expected = solution.expected_digits
-        if expected > digits + _RESERVE:
+        if stalled or expected > digits + _RESERVE:
             goals = []
         nearly = -solution.residual > _NEARLY * goal if goals else expected > digits - _RESERVE
-        if not nearly and repeated < _MOST_REPETITIONS:
+        if not nearly and not stalled and repeated < _MOST_REPETITIONS:
             missing = 0.0 if goals else max(digits - expected, 0.0)
             goals.insert(0, goal + 0.5 * missing)
             repeated += 1
         size = next_sizes(cells, solution.sizes, solution.jumps, goals[0] if goals else goal)
-        reason = limits.exceeded_by(cells, size)
+        reason = _STALLED if stalled else limits.exceeded_by(cells, size)
         if goals and not reason:
             continue
-        found = prove(solution)
+        found = prove(closest)
         gained = best is None or found.bound < best.bound
         best = found if gained else best
         assert best is not None
         if best.digits >= digits:
             return best, ""
         if reason or not gained:
-            return best, reason or "more trial functions do not help"
+            return best, reason or _STALLED
         missing = digits - _proved(found)
         goals = [goal + 0.5 * missing + 0.5 * _MARGIN]
         size = next_sizes(cells, solution.sizes, solution.jumps, goals[0])

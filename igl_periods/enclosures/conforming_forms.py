@@ -91,10 +91,12 @@ class _Energies:
             self._gap(i)
         self._flush()
         D = self.half + self.half.transpose() + self.mismatch
-        return ArbMat([
-            [x + Arb(0, e) for x, e in zip(row, errors)]
-            for row, errors in zip(D.tolist(), self.error.tolist())
-        ])
+        return ArbMat(
+            [
+                [x + Arb(0, e) for x, e in zip(row, errors)]
+                for row, errors in zip(D.tolist(), self.error.tolist())
+            ]
+        )
 
     def _rule(self, i: int, accuracy: float) -> ChordRule:
         polynomials = self.traces[i]
@@ -182,16 +184,12 @@ def _corrections(
     for corner, other in shared_ends(surface):
         # The end of the chord at ``corner`` is the start of the one at ``other``.
         here, there = ends[corner][1], ends[other][0]
-        excess = [
-            a - j - (b - l) for a, b, j, l in zip(here, there, jumps[corner], jumps[other])
-        ]
+        excess = [a - j - (b - m) for a, b, j, m in zip(here, there, jumps[corner], jumps[other])]
         if following(following(corner)) < following(other):
             at_start[other] = excess
         else:
             at_end[corner] = [-x for x in excess]
-    return [
-        (a, [y - x for x, y in zip(a, b)]) for a, b in zip(at_start, at_end)
-    ]
+    return [(a, [y - x for x, y in zip(a, b)]) for a, b in zip(at_start, at_end)]
 
 
 def shared_ends(surface: Triangulation) -> Iterator[tuple[int, int]]:

@@ -62,10 +62,11 @@ def next_sizes(cells: Cells, sizes: list[Floats], jumps: Floats, goal: float) ->
         guilty = tail[a] >= tail[b] - _DOUBT
         np.maximum.at(blamed, a[guilty], jumps[guilty])
     found = []
-    for a, (_, _, rate), last, jump in zip(sizes, decays, tail, blamed):
-        wanted = a.size + (max(last + _MARGIN, min(jump, last + _MOST_BLAME)) + goal) / rate
+    for coefficients, (_, _, rate), last, jump in zip(sizes, decays, tail, blamed):
+        excess = max(last + _MARGIN, min(jump, last + _MOST_BLAME)) + goal
+        wanted = coefficients.size + excess / rate
         # Where hardly anything was known, do not believe in a few large or small coefficients.
-        most = 1.3 * _GROWTH * a.size + 10.0
+        most = 1.3 * _GROWTH * coefficients.size + 10.0
         found.append(int(np.ceil(np.clip(wanted, _FEWEST, most))))
     return np.array(found, dtype=np.int64)
 
@@ -80,9 +81,7 @@ def _decay(a: Floats, kappa: float, residual: float) -> tuple[int, float, float]
     last = int(known[-1])
     first = last // 2
     rate = (envelope[first] - envelope[last]) / (last - first) if last > first else _RATE * kappa
-    return last + 1, float(envelope[last]), float(
-        np.clip(rate, _SLOWEST * kappa, _FASTEST * kappa)
-    )
+    return last + 1, float(envelope[last]), float(np.clip(rate, _SLOWEST * kappa, _FASTEST * kappa))
 
 
 def node_counts(cells: Cells, size: Ints) -> Ints:

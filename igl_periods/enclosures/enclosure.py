@@ -163,7 +163,8 @@ class PeriodEnclosure:
         ValueError
             If it has another shape.
         """
-        return bool(self.matrix.overlaps(_as_balls(getattr(other, "matrix", other), self.genus)))
+        Pi = other.matrix if isinstance(other, PeriodEnclosure) else other
+        return bool(self.matrix.overlaps(_as_balls(Pi, self.genus)))
 
     def to_period_matrix(self) -> PeriodMatrix:
         """The same in floating point, with the allowance for rounding that this costs."""
@@ -194,7 +195,10 @@ class PeriodEnclosure:
                 "imag": _texts(self.matrix.imag, self.digits + 3),
             },
             "dirichlet": _texts(self.dirichlet, digits),
-            "surface": {"lengths": self.complex.lengths.tolist(), "twin": self.complex.twin.tolist()},
+            "surface": {
+                "lengths": self.complex.lengths.tolist(),
+                "twin": self.complex.twin.tolist(),
+            },
             "cocycles": {
                 "row": cocycles.row.tolist(),
                 "edge": cocycles.col.tolist(),

@@ -25,7 +25,6 @@ from igl_periods.arrays import Ints
 from igl_periods.complexes import DeltaComplex, ExactLengths
 from igl_periods.errors import ComplexError
 
-
 _AGREEMENT = 1e-6
 
 

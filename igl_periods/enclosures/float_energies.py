@@ -138,7 +138,7 @@ class _Energies:
         return [
             *_flux(on_face, face, weight),
             *_flux(on_star, star, weight),
-            *_mismatch(delta, slope, s, weight, *_shapes(cells, row, 1)),
+            *_mismatch(delta, slope, s, weight, _shapes(cells, row, 1)),
             *_squares(tilted, self.beta[chords], height),
         ]
 
@@ -156,7 +156,7 @@ class _Energies:
         return [
             *_flux(here.scaled(0.5), first, weight),
             *_flux(delta + there.scaled(0.5), second, weight),
-            *_mismatch(delta, slope, s, weight, *_shapes(cells, row, 1)),
+            *_mismatch(delta, slope, s, weight, _shapes(cells, row, 1)),
         ]
 
     def _steps(self, interfaces: Ints) -> Balls:
@@ -212,9 +212,10 @@ def _flux(h: Balls, trace: Traces, weight: Balls) -> list[Balls]:
 
 
 def _mismatch(
-    delta: Balls, slope: Balls, s: Balls, weight: Balls, height: Balls, foot: Balls
+    delta: Balls, slope: Balls, s: Balls, weight: Balls, shapes: tuple[Balls, Balls]
 ) -> list[Balls]:
     """E, on second sides, where s′ = 1 − s and ``slope`` is −δ′."""
+    height, foot = shapes
     one = Balls.exact(np.ones_like(s.mid))
     root = weight.sqrt()
     return _squares((delta + (one - s - foot) * slope) * root, slope * root, height)
@@ -232,9 +233,7 @@ def _products(X: Balls, Y: Balls) -> Balls:
     """Xᵀ Y, as ``inner_products``, but with sums in long floating point."""
     n, k = X.shape
     padding = -n % _ROWS_AT_ONCE
-    long = [
-        np.concatenate([Z.mid, np.zeros((padding, k))]).astype(np.longdouble) for Z in (X, Y)
-    ]
+    long = [np.concatenate([Z.mid, np.zeros((padding, k))]).astype(np.longdouble) for Z in (X, Y)]
     parts = np.einsum("pni,pnj->pij", *(z.reshape(-1, _ROWS_AT_ONCE, k) for z in long))
     n_terms = _ROWS_AT_ONCE
     while len(parts) > 1:
@@ -361,10 +360,12 @@ class _ChordBounds:
             return np.asarray(ratio**exponent, dtype=np.float64)
         with flint.ctx.workprec(STAR_BITS):
             exact = self.cells.exponent
-            return np.array([
-                float(((flint.arb(r) * UP).log() * exact[v]).exp().upper()) * UP
-                for r, v in zip(ratio.tolist(), self.star.tolist())
-            ])
+            return np.array(
+                [
+                    float(((flint.arb(r) * UP).log() * exact[v]).exp().upper()) * UP
+                    for r, v in zip(ratio.tolist(), self.star.tolist())
+                ]
+            )
 
 
 def _horner(sizes: Floats, x: Floats) -> tuple[Floats, Floats]:

@@ -3,16 +3,17 @@ r"""Traces of power series in floating point with proved errors, for all cells a
 A few digits take short series on many cells, and arithmetic of any precision is slow there.  Here
 the coefficients c_k *are* complex doubles, and a row of powers times the coefficients of all forms
 is one matrix product, in the longest floating-point numbers that the processor has.  Its errors are
-known beforehand.  Let |w| ≤ W on the cell, w known to ε, and let u be the unit of rounding.  A complex product is off by at most 3u relative to it, so that the
-computed w^k is off by at most 4ku W^k + kε W^{k−1}, and a sum of K products by γ_n of the sum of
-their sizes, n = 2K + 4.  Hence
+known beforehand.  Let |w| ≤ W on the cell, w known to ε, and let u be the unit of rounding.  A
+complex product is off by at most 3u relative to it, so that the computed w^k is off by at most
+4ku W^k + kε W^{k−1}, and a sum of K products by γ_n of the sum of their sizes, n = 2K + 4.  Hence
 
-.. math:: |\widetilde F - F| \le \sum_k |c_k| \bigl( (\gamma_n + 4ku)\, W^k + k \varepsilon W^{k-1} \bigr),
+.. math:: |\widetilde F - F| \le \sum_k |c_k|
+          \bigl( (\gamma_n + 4ku)\, W^k + k \varepsilon W^{k-1} \bigr),
 
 and the same with k c_k in the place of c_k for Σ k c_k w^k, which gives the derivative.
 
-Constants c_0 are kept apart.  The flux of a harmonic function out of a cell is 0, so that the energy
-of a cell does not see the constant, and errors are those of functions as small as the cell.
+Constants c_0 are kept apart.  The flux of a harmonic function out of a cell is 0, so that the
+energy of a cell does not see the constant, and errors are those of functions as small as the cell.
 """
 
 from __future__ import annotations
@@ -46,7 +47,7 @@ _LEAST_STAR_BITS = 68
 
 def coefficients_in_floats(trial: TrialFunctions, newton: list[Complexes]) -> list[Complexes]:
     """Power series of the Newton bases' sums, rounded to doubles; (K, k) for each cell."""
-    found: list[Complexes] = [a for a in newton]
+    found: list[Complexes] = list(newton)
     for K in np.unique(trial.size):
         alike = np.flatnonzero(trial.size == K)
         points = np.array([trial.points[c] for c in alike])
@@ -111,7 +112,12 @@ class LongEnds:
     def __init__(self, cells: Cells) -> None:
         """Round the ends of all sides, and κ of all stars."""
         self.cells = cells
-        ends = [z for pair in zip(cells.start, cells.end) for side in range(2) for z in _side(pair, side)]
+        ends = [
+            z
+            for pair in zip(cells.start, cells.end)
+            for side in range(2)
+            for z in _side(pair, side)
+        ]
         self.ends = _long_complex(ends).reshape(-1, 2, 2)
         self.exponents = _long([kappa.mid() for kappa in cells.exponent])
 

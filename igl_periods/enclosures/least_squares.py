@@ -20,9 +20,11 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg
+from scipy import sparse
 from scipy.sparse import csc_matrix
 
 from igl_periods.arrays import Complexes, Floats
+from igl_periods.errors import NotPositiveDefiniteError
 from igl_periods.harmonic import CholeskyFactor, factor, solve
 
 from .trial_functions import TrialFunctions
@@ -86,7 +88,19 @@ def least_squares(trial: TrialFunctions) -> LeastSquares:
     """Set up and factor the least-squares problem of the jumps."""
     weighted = _Weighted(trial)
     inverses = [_inverse_root(gram) for gram in _gram_matrices(weighted)]
-    return LeastSquares(trial, inverses, factor(_normal_equations(weighted, inverses)))
+    return LeastSquares(trial, inverses, _factor(_normal_equations(weighted, inverses)))
+
+
+def _factor(normal: csc_matrix) -> CholeskyFactor:
+    """The factor of the normal equations, or of slightly larger ones where rounding spoils them."""
+    shift = 0.0
+    while True:
+        try:
+            return factor(normal)
+        except NotPositiveDefiniteError:
+            larger = max(100.0 * shift, 1e-14)
+            normal = csc_matrix(normal + (larger - shift) * sparse.eye(normal.shape[0]))
+            shift = larger
 
 
 class _Weighted:
@@ -142,12 +156,12 @@ def _gram_matrices(weighted: _Weighted) -> Iterator[Floats]:
     """The products of the functions of each cell with each other."""
     cells = weighted.nodes.cells
     alone: dict[int, list[int]] = {}
-    for i in np.flatnonzero(cells.cell[:, 0] == cells.cell[:, 1]):
-        alone.setdefault(int(cells.cell[i, 0]), []).append(int(i))
+    for alike in np.flatnonzero(cells.cell[:, 0] == cells.cell[:, 1]).tolist():
+        alone.setdefault(int(cells.cell[alike, 0]), []).append(alike)
     for cell in range(cells.n_cells):
         values, slopes = weighted.cell(cell)
         gram = _products(values, slopes, values, slopes)
-        for i in alone.get(cell, ()):
+        for i in alone.get(cell, []):
             coupling = weighted.coupling(i)
             gram += coupling + coupling.T
         if cell == 0:

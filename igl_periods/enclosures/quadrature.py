@@ -13,7 +13,8 @@ its weights are positive, and odd functions are integrated exactly.
 For the bound M: points of the ellipse have distances from the ends a, b of the chord that add up
 to at most S = |e| (ρ + 1/ρ)/2, hence (|a| + |b| − S)/2 ≤ |ζ| ≤ (|a| + |b| + S)/2, and there
 
-.. math:: |F| \le \sum |c_k| |w|^k, \qquad |dF/ds| \le \frac{\kappa |e|}{|\zeta|} \sum k |c_k| |w|^k.
+.. math:: |F| \le \sum |c_k| |w|^k, \qquad
+          |dF/ds| \le \frac{\kappa |e|}{|\zeta|} \sum k |c_k| |w|^k.
 
 The face's polynomial in t = 2s − 1 is bounded with |t| ≤ (ρ + 1/ρ)/2.  The real part of an analytic
 function on the segment continues to one bounded by the same number.  How many nodes and which ρ are
@@ -154,18 +155,20 @@ class ChordBounds:
         n = rule.n_nodes
         factor = 2 * (1 + Arb(1) / (4 * n * n - 1)) * rho ** (-2 * n) / (1 - rho**-2)
         k = len(H)
-        return flint.arb_mat([
+        return flint.arb_mat(
             [
-                factor
-                * (
-                    H[p] * slopes[q]
-                    + H[q] * slopes[p]
-                    + (A[p] * A[q] / height + height * delta_slope[p] * delta_slope[q]) / 2
-                )
-                for q in range(k)
+                [
+                    factor
+                    * (
+                        H[p] * slopes[q]
+                        + H[q] * slopes[p]
+                        + (A[p] * A[q] / height + height * delta_slope[p] * delta_slope[q]) / 2
+                    )
+                    for q in range(k)
+                ]
+                for p in range(k)
             ]
-            for p in range(k)
-        ])
+        )
 
 
 def shape(a: flint.acb, b: flint.acb) -> tuple[Arb, Arb]:

@@ -94,6 +94,7 @@ def refined(problem: LeastSquares, goal: float) -> Refined:
     tables = PowerTables(lambda n: [flint.arb(2.0 * s - 1.0) for s in gauss_nodes(n)[0]])
     total = [np.zeros((K, values.shape[1]), np.complex128) for K in problem.trial.size]
     series: Series | None = None
+    best: Refined | None = None
     exponent = 0
     while True:
         update, left = _corrected_solution(problem, values, slopes)
@@ -103,8 +104,11 @@ def refined(problem: LeastSquares, goal: float) -> Refined:
         # As long as double precision is what limits a step, the next one gains as much.  What it
         # leaves otherwise is what the trial functions cannot do.
         done = gain > _LIMITED and (series is None or level < -_NEARLY * goal)
+        if best is not None and level >= best.residual:
+            return best
+        best = Refined(problem, total, jumps, expansion, series, (update, exponent))
         if level <= -goal or gain > _LEAST_GAIN or done:
-            return Refined(problem, total, jumps, expansion, series, (update, exponent))
+            return best
         series = expansion.added(series, update, exponent)
         with flint.ctx.workprec(precision_of(-level + _GAIN)):
             exponent, values, slopes = _residual(nodes, series, tables)
@@ -216,9 +220,7 @@ class Expansion:
             self._factors.append({})
             self._bits.append(bits + size)
 
-    def added(
-        self, series: Series | None, update: list[Complexes], exponent: int
-    ) -> Series:
+    def added(self, series: Series | None, update: list[Complexes], exponent: int) -> Series:
         """Add coefficients of Newton bases, times 2^exponent, to power series."""
         scale = flint.arb(2) ** exponent
         found = []
@@ -229,9 +231,9 @@ class Expansion:
                     found.append([[(c * scale).mid() for c in form] for form in forms])
                     continue
                 before = series.coefficients[cell]
-                found.append([
-                    [(b + c * scale).mid() for b, c in zip(x, y)] for x, y in zip(before, forms)
-                ])
+                found.append(
+                    [[(b + c * scale).mid() for b, c in zip(x, y)] for x, y in zip(before, forms)]
+                )
         return Series(self.trial.nodes.cells, found)
 
     def _expanded(self, cell: int, a: list[complex]) -> list[Acb]:

@@ -90,9 +90,7 @@ class PowerTables:
         return self._tables[key]
 
 
-def face_trace(
-    polynomials: list[flint.acb_poly], powers: PowerTables, n: int, side: int
-) -> ArbMat:
+def face_trace(polynomials: list[flint.acb_poly], powers: PowerTables, n: int, side: int) -> ArbMat:
     """The traces of a face on a side, in the nodes' order along the first side; (n, 3 k)."""
     # s runs against t on the second side.
     slopes = [(2 if side == 0 else -2) * p.derivative() for p in polynomials]

@@ -13,8 +13,9 @@ Hence
           |\Pi_{exact} - X - iY|_{ij} \le \eta \sqrt{Y_{ii} Y_{jj}} .
 
 Positive definiteness is proved by a Cholesky factor in balls.  The best X + iY is the symplectic
-mean of D; it is found by Newton's iteration S ← ½ (S − S⁻¹) for the complex structure, from S = J D,
-whose eigenvalues ± i d it moves to ± i from any d > 0.  Nothing depends on how well that went.
+mean of D; it is found by Newton's iteration S ← ½ (S − S⁻¹) for the complex structure, from
+S = J D, whose eigenvalues ± i d it moves to ± i from any d > 0.  Nothing depends on how well that
+went.
 """
 
 from __future__ import annotations
@@ -55,16 +56,18 @@ class SiegelBall:
         """Balls that contain the entries of the exact matrix."""
         g = self.real.nrows()
         roots = [self.imag[i, i].sqrt() for i in range(g)]
-        return flint.acb_mat([
+        return flint.acb_mat(
             [
-                flint.acb(
-                    self.real[i, j] + Arb(0, self.bound * roots[i] * roots[j]),
-                    self.imag[i, j] + Arb(0, self.bound * roots[i] * roots[j]),
-                )
-                for j in range(g)
+                [
+                    flint.acb(
+                        self.real[i, j] + Arb(0, self.bound * roots[i] * roots[j]),
+                        self.imag[i, j] + Arb(0, self.bound * roots[i] * roots[j]),
+                    )
+                    for j in range(g)
+                ]
+                for i in range(g)
             ]
-            for i in range(g)
-        ])
+        )
 
 
 def siegel_ball(D: ArbMat) -> SiegelBall:

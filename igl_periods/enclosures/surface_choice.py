@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from igl_periods.complexes import DeltaComplex
+from igl_periods.complexes import DeltaComplex, ExactLengths
 from igl_periods.periods import as_complex
 
-from .exact_lengths import ExactLengths, distances, lengths_of
+from .exact_lengths import distances, lengths_of
 
 
 def surface_and_lengths(

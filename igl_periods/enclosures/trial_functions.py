@@ -56,7 +56,9 @@ def trial_functions(nodes: InterfaceNodes, size: Ints) -> TrialFunctions:
     """Newton bases at Leja points of the nodes, ``size`` functions for each cell."""
     n_cells = nodes.cells.n_cells
     found = TrialFunctions(
-        nodes, size, *([np.empty(0)] * n_cells for _ in range(4))  # type: ignore[arg-type]
+        nodes,
+        size,
+        *([np.empty(0)] * n_cells for _ in range(4)),  # type: ignore[arg-type]
     )
     n_rows = np.diff(nodes.start)
     for K in np.unique(size):

@@ -8,10 +8,10 @@ ball.  Two moves change the triangulation and not the surface:
 * an *insertion* puts a vertex of angle 2π at a point with rational barycentric coordinates.
 
 Which moves are made is decided in floating point, and costs no truth.  A closed integer cochain
-takes on a new edge the value that its sum around a triangle demands, so the marking passes exactly.
+takes on a new edge the value that its sum around a triangle demands: the marking passes exactly.
 
-Half-edges are those of :class:`~igl_periods.DeltaComplex`: ``h = 3 f + s`` is side s of face f, from
-corner s + 1 to corner s + 2.
+Half-edges are those of :class:`~igl_periods.DeltaComplex`: ``h = 3 f + s`` is side s of face f,
+from corner s + 1 to corner s + 2.
 """
 
 from __future__ import annotations
@@ -107,7 +107,12 @@ class Triangulation:
         t = self.twin[h]
         if h // 3 == t // 3:
             return False
-        bp, pa, aq, qb = following(h), following(following(h)), following(t), following(following(t))
+        bp, pa, aq, qb = (
+            following(h),
+            following(following(h)),
+            following(t),
+            following(following(t)),
+        )
         diagonal = self._diagonal(h, pa, bp, aq, qb)
         if diagonal is None:
             return False
@@ -157,9 +162,7 @@ class Triangulation:
         across = x_p - x_q
         return (across * across + height * height).sqrt()
 
-    def _distances(
-        self, f: int, weights: tuple[flint.fmpq, flint.fmpq, flint.fmpq]
-    ) -> list[Arb]:
+    def _distances(self, f: int, weights: tuple[flint.fmpq, flint.fmpq, flint.fmpq]) -> list[Arb]:
         """Distances of a point of a face from its corners."""
         squares = [side * side for side in map(self.length, range(3 * f, 3 * f + 3))]
         u, v, w = (flint.arb(x) for x in weights)

@@ -184,7 +184,7 @@ def regular_map(rotation: ArrayLike, flip: ArrayLike, n: int = 1) -> DeltaComple
     lengths, gluing = _triangles(twin.reshape(-1, 3)) if k == 3 else _fans(twin, k)
     K = DeltaComplex.from_gluing(*subdivide(lengths, gluing, n))
     spoke = (np.abs(K.lengths * n - 1.0) > 1e-9).astype(np.int64)
-    formulas = [root_of(Fraction(1, n * n)), partial(circumradius, k, n)]
+    formulas = (root_of(Fraction(1, n * n)), partial(circumradius, k, n))
     return replace(K, exact_lengths=by_kind(K.edge, spoke, formulas))
 
 

@@ -167,7 +167,7 @@ def glued_rectangles(
     K = DeltaComplex.from_gluing(lengths, twin)
     first = 3 * np.repeat(np.arange(n_rectangles), n * n)[:, None]
     kind = np.empty(lengths.shape, dtype=np.int64)
-    kind[0::2], kind[1::2] = first + (1, 2, 0), first + (0, 1, 2)
+    kind[0::2], kind[1::2] = first + np.array([1, 2, 0]), first + np.array([0, 1, 2])
     formulas = [
         root_of(square / (n * n))
         for w, h in ((Fraction(w), Fraction(h)) for w, h in size.tolist())

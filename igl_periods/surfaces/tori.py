@@ -66,7 +66,9 @@ def flat_torus(tau: complex, n: int = 4, m: int | None = None) -> DeltaComplex:
     K = DeltaComplex.from_gluing(lengths, twin)
     kind = np.empty(twin.shape, dtype=np.int64)
     kind[0::2], kind[1::2] = (1, 2, 0), (0, 1, 2)
-    formulas = [partial(lattice_length, modulus, p, q) for p, q in (a, b, (a[0] + b[0], a[1] + b[1]))]
+    formulas = [
+        partial(lattice_length, modulus, p, q) for p, q in (a, b, (a[0] + b[0], a[1] + b[1]))
+    ]
     return replace(K, exact_lengths=by_kind(K.edge, kind, formulas))
 
 

@@ -79,7 +79,7 @@ def test_lengths_known_badly_are_refused():
 
     K = square_tiled_surface("omega_1")
     wide = replace(K, exact_lengths=Wide(K.exact_lengths))
-    with pytest.raises(ip.ComplexError, match="balls that do not shrink|form no triangle"):
+    with pytest.raises(ip.ComplexError, match=r"balls that do not shrink|form no triangle"):
         ip.enclosures.enclose(wide, digits=10)
 
 

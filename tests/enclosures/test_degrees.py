@@ -1,3 +1,5 @@
+from itertools import pairwise
+
 import flint
 import numpy as np
 from support.enclosed_surfaces import cut, generic_torus
@@ -9,7 +11,7 @@ def test_stages_grow_by_a_bounded_factor_and_end_at_the_goal():
     for goal in (1.0, 6.5, 51.0, 500.0):
         goals = stage_goals(goal)
         assert goals[-1] == goal
-        assert all(b <= 2.2 * a * (1 + 1e-12) for a, b in zip(goals, goals[1:]))
+        assert all(b <= 2.2 * a * (1 + 1e-12) for a, b in pairwise(goals))
 
 
 def test_geometric_decay_is_extrapolated():

@@ -10,7 +10,7 @@ from igl_periods.surfaces import flat_torus
 def test_all_edges_are_delaunay_and_agree_with_the_other_implementation():
     K = generic_genus_two(seed=1)
     with flint.ctx.workprec(200):
-        surface, T = triangulated(K)
+        surface, _ = triangulated(K)
         for h in range(0, len(surface.twin), 4):
             surface.flip(h)
         make_delaunay(surface)

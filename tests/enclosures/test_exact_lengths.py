@@ -49,16 +49,13 @@ def test_positions_are_taken_as_they_are():
 
 
 def test_moves_drop_exact_lengths():
-    from igl_periods.complexes import delaunay_flips, insert_barycentres, split
+    from igl_periods.complexes import insert_barycentres, split
     from igl_periods.topology import cochains_and_basis
 
     K = flat_torus(0.49 + 0.3j, 2, 3)
     cochains, _ = cochains_and_basis(K)
     assert split(K, cochains)[0].exact_lengths is None
     assert insert_barycentres(K, cochains, np.array([0]))[0].exact_lengths is None
-    sheared = replace(K, lengths=K.lengths * np.where(K.edge == 0, 1.3, 1.0))
-    flipped, rounds = delaunay_flips(sheared)
-    assert flipped.exact_lengths is None or not rounds
 
 
 def test_lengths_of_another_surface_are_refused():

@@ -10,7 +10,9 @@ from igl_periods.enclosures.series import Series
 from igl_periods.surfaces import square_tiled_surface
 
 
-@pytest.mark.parametrize("K", [square_tiled_surface("omega_1"), generic_torus(), generic_genus_two()])
+@pytest.mark.parametrize(
+    "K", [square_tiled_surface("omega_1"), generic_torus(), generic_genus_two()]
+)
 @pytest.mark.parametrize(("seed", "decay"), [(0, 0.5), (1, 0.2), (2, 0.9)])
 def test_contains_the_energies_of_the_same_series_in_balls_of_any_precision(K, seed, decay):
     rng = np.random.default_rng(seed)

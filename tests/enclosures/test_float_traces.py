@@ -25,7 +25,9 @@ def test_errors_of_traces_are_covered():
             star = int(cells.cell[i, 1])
             a, b = cells.start[i][1], cells.end[i][1]
             z = (a + b) / 2 - x * (b - a) / 2
-            w = ((z / arb(float(cells.scale[star]))).log() + acb(0, cells.turn[i])) * cells.exponent[star]
+            w = (
+                (z / arb(float(cells.scale[star]))).log() + acb(0, cells.turn[i])
+            ) * cells.exponent[star]
             w = w.exp()
             for form in range(2):
                 series = [acb(complex(y)) for y in c[star][:, form]]

@@ -36,9 +36,9 @@ def _dense(trial, values, slopes):
             r = nodes.rows(i, side)
             r = slice(r.start - nodes.start[cell], r.stop - nodes.start[cell])
             phi, G = trial.values[cell][r], trial.slopes[cell][r]
-            columns = np.block([
-                [sign * phi.real, -sign * phi.imag], [G.real, -G.imag], [G.imag, G.real]
-            ])
+            columns = np.block(
+                [[sign * phi.real, -sign * phi.imag], [G.real, -G.imag], [G.imag, G.real]]
+            )
             block[:, first[cell] : first[cell] + size[cell]] += columns
         here = nodes.rows(i, 0)
         root = np.sqrt(np.tile(nodes.weight[here], 3))[:, None]

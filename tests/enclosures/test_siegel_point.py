@@ -26,9 +26,9 @@ def test_bound_is_the_largest_symplectic_eigenvalue_and_holds(g, excess):
         d, _ = williamson(D)
         assert float(ball.bound) == pytest.approx(d[0] - 1, rel=0.1, abs=1e-11)
         # Widened by the rounding of the exact matrix in this test.
-        error = np.array(
-            [complex(z.mid()) for z in ball.matrix().entries()]
-        ).reshape(g, g) - siegel_point(exact)
+        error = np.array([complex(z.mid()) for z in ball.matrix().entries()]).reshape(
+            g, g
+        ) - siegel_point(exact)
         scale = np.sqrt(np.diag(siegel_point(exact).imag))
         assert (np.abs(error) / np.outer(scale, scale)).max() < float(ball.bound) * 1.3 + 1e-11
 

@@ -12,7 +12,9 @@ def check(surface):
         assert surface.twin[t] == h != t
         assert surface.edge[t] == surface.edge[h]
         assert surface.sign[t] == -surface.sign[h]
-        assert surface.corner_vertex[following(h)] == surface.corner_vertex[t - (t % 3) + (t + 2) % 3]
+        assert (
+            surface.corner_vertex[following(h)] == surface.corner_vertex[t - (t % 3) + (t + 2) % 3]
+        )
     for f in range(surface.n_faces):
         values = [surface.value(3 * f + s) for s in range(3)]
         assert not np.any(np.sum(values, axis=0))

@@ -78,9 +78,9 @@ def exact_matrix(name):
 
 def _complex(real, imag):
     g = len(imag)
-    return acb_mat([
-        [acb(real[i][j] if real else 0, imag[i][j]) for j in range(g)] for i in range(g)
-    ])
+    return acb_mat(
+        [[acb(real[i][j] if real else 0, imag[i][j]) for j in range(g)] for i in range(g)]
+    )
 
 
 def in_floats(Pi):
