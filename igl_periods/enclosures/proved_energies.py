@@ -33,6 +33,7 @@ from scipy.linalg import solve_triangular
 from scipy.sparse import csr_array
 
 from igl_periods.arrays import Complexes, Floats, Ints
+from igl_periods.errors import ComplexError
 from igl_periods.harmonic import Jumps, energy_factor
 from igl_periods.symplectic import product
 
@@ -95,7 +96,13 @@ class ProvedEnergies:
     def _coordinates(self) -> arb_mat:
         """The canonical basis in terms of the forms, U W⁻¹."""
         with flint.ctx.workprec(BITS):
-            inverse = arb_mat(self.combination.tolist()).inv()
+            try:
+                inverse = arb_mat(self.combination.tolist()).inv()
+            except ZeroDivisionError as error:
+                raise ComplexError(
+                    "nothing can be proved about the period matrix: the energies of the forms are "
+                    "singular in double precision. The triangles are too extreme; remesh them."
+                ) from error
             return arb_mat([[int(x) for x in row] for row in self.basis.tolist()]) * inverse
 
     def __getstate__(self) -> dict[str, Any]:

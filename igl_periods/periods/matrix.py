@@ -58,7 +58,7 @@ from scipy.sparse import csr_array
 
 from igl_periods.arrays import Complexes, Floats, Ints
 from igl_periods.complexes import DeltaComplex
-from igl_periods.errors import ComplexError, NotASiegelPointError
+from igl_periods.errors import ComplexError, NotASiegelPointError, NotPositiveDefiniteError
 from igl_periods.harmonic import energy_factor
 from igl_periods.siegel import SIEGEL_GENUS_LIMIT, check_symplectic, siegel_reduce, to_flint
 from igl_periods.symplectic import (
@@ -277,15 +277,15 @@ class PeriodMatrix:
         """The same, with a proof for the new matrix; the balls themselves lose nothing."""
         assert self.proof is not None
         cocycles = csr_array(csr_array(U) @ self.cocycles)
+        known = combined(self.bound or 0.0, _LARGEST_LOSS)
         try:
             proof = self.proof.in_basis(U)
             changed = PeriodMatrix(
                 proof.dirichlet(), True, cocycles, self.complex, self.rounding, proof
             )
-        except (ComplexError, OverflowError):
+            return changed if (changed.bound or 0.0) <= known else None
+        except (ComplexError, NotPositiveDefiniteError, OverflowError):
             return None
-        known = combined(self.bound or 0.0, _LARGEST_LOSS)
-        return changed if (changed.bound or 0.0) <= known else None
 
     def to_flint(self) -> flint.acb_mat:
         """``matrix`` as balls with the radii ``entry_bounds``, for python-flint."""

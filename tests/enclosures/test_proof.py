@@ -158,9 +158,10 @@ def test_the_proof_passes_to_every_marking(length):
     assert np.all(np.abs(moved.matrix - exact) <= 2.1 * moved.entry_bounds)
 
 
-def test_markings_without_digits_are_refused():
+@pytest.mark.parametrize(("shift", "shear"), [(3, 3), (4, 4), (6, 6), (8, 6), (12, 6)])
+def test_markings_without_digits_are_refused(shift, shear):
     pm = proved(ORDINARY["torus"])
-    far = np.array([[1, 10**12], [0, 1]]) @ np.array([[1, 0], [10**6, 1]])
+    far = np.array([[1, 10**shift], [0, 1]]) @ np.array([[1, 0], [10**shear, 1]])
     with pytest.raises(ip.ComplexError, match="too extreme for double precision"):
         pm.change_basis(far)
 

@@ -1,5 +1,6 @@
 """Proved energies: exact combinations of cochains, changes of basis that lose nothing."""
 
+import dataclasses
 import pickle
 from fractions import Fraction
 
@@ -103,6 +104,13 @@ def test_changes_of_basis_that_do_not_fit_are_refused():
     huge[0, 2] = 2**62
     with pytest.raises(OverflowError):
         energies.in_basis(huge).in_basis(huge).in_basis(huge).in_basis(huge)
+
+
+def test_combinations_that_are_singular_prove_nothing():
+    energies, _ = SURFACES["L"]
+    singular = dataclasses.replace(energies, combination=np.ones((4, 4)))
+    with pytest.raises(ip.ComplexError, match="singular in double precision"):
+        singular.dirichlet()
 
 
 def test_proofs_are_pickled_without_what_is_derived():
