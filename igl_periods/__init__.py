@@ -17,6 +17,7 @@ page.  In reading order:
 ``harmonic``       K, cochains → D, by linear functions
 ``elements``       K, cochains → D, by functions of high degree, conical at cone points
 ``periods``        D → Π and its bound
+``enclosures``     proofs in ball arithmetic: Π to as many digits as are asked for
 ``symplectic``     J, integer bases, the Williamson form: what D and Π have in common
 ``siegel``         Π → γ·Π reduced
 ``moduli``         Π₁, Π₂ → equivalence, symmetries, invariants
@@ -63,6 +64,7 @@ from .periods import (
     richardson,
     sampled_torus,
 )
+from .enclosures import PeriodEnclosure, enclose
 from .siegel import (
     SIEGEL_GENUS_LIMIT,
     SiegelReduction,
@@ -121,6 +123,8 @@ __all__ = [
     "period_matrix",
     "period_matrix_from_weights",
     "PeriodMatrix",
+    "enclose",
+    "PeriodEnclosure",
     "ToleranceWarning",
     "mesh_quality",
     "refined_period_matrix",

@@ -19,6 +19,7 @@ triangles have the stored lengths.
 ``rounding``          what rounding can change between D and Π
 ``matrix``            the period matrix, its estimates and its bound
 ``certificate``       D and its allowance → the certified matrix
+``proof``             the same with energies in balls: the bound is proved
 ``adaptive_degree``   the degree that meets a tolerance
 ``computation``       the steps, one after the other
 ``adaptive_mesh``     finer triangulations where the bound originates
