@@ -21,7 +21,7 @@ from support.random_surfaces import (
 )
 
 import igl_periods as ip
-from igl_periods.enclosures import midpoint_radius
+from igl_periods.proofs import midpoint_radius
 from igl_periods.reports import summary
 from igl_periods.reports.json_document import period_matrix_to_json
 from igl_periods.reports.words import rounded_up

@@ -14,7 +14,7 @@ from support.random_surfaces import noisy_torus, random_gluing, random_lengths
 import igl_periods as ip
 from igl_periods.complexes import insert_barycentres, split
 from igl_periods.complexes.delaunay import delaunay_flips
-from igl_periods.enclosures import length_balls
+from igl_periods.proofs import length_balls
 from igl_periods.proofs.length_balls import (
     after_barycentres,
     after_flips,

@@ -5,7 +5,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from igl_periods.enclosures import midpoint_radius
+from igl_periods.proofs import midpoint_radius
 from igl_periods.proofs.midpoint_radius import (
     Balls,
     check_arithmetic,

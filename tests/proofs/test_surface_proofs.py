@@ -7,8 +7,8 @@ from support.random_surfaces import L_SHAPE, random_gluing, random_lengths
 
 import igl_periods as ip
 from igl_periods.elements import high_order_forms
-from igl_periods.enclosures import midpoint_radius
 from igl_periods.harmonic import factored
+from igl_periods.proofs import midpoint_radius
 from igl_periods.proofs.surface_proofs import (
     EnclosedTriangulation,
     high_order_proof,
