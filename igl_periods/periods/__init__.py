@@ -41,8 +41,12 @@ from .adaptive_mesh import Refined, refined_period_matrix
 from .quality import MeshQuality, WIDE, mesh_quality
 from .extrapolation import Extrapolation, richardson, sampled_torus
 from .real_surfaces import real_structure
+from .rounding import LEAST_ALLOWANCE, combined, congruence
 
 __all__ = [
+    "LEAST_ALLOWANCE",
+    "combined",
+    "congruence",
     "as_complex",
     "check_options",
     "PeriodMatrix",
