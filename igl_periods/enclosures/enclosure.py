@@ -25,8 +25,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
 from igl_periods.complexes import DeltaComplex
-from igl_periods.periods import PeriodMatrix
-from igl_periods.periods.rounding import LEAST_ALLOWANCE, combined, congruence
+from igl_periods.periods import LEAST_ALLOWANCE, PeriodMatrix, combined, congruence
 from igl_periods.siegel import SIEGEL_GENUS_LIMIT, check_symplectic, siegel_reduce
 from igl_periods.symplectic import form_action, product
 

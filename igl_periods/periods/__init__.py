@@ -44,8 +44,12 @@ from .quality import MeshQuality, WIDE, mesh_quality
 from .extrapolation import Extrapolation, richardson, sampled_torus
 from .real_surfaces import real_structure
 from .recognition import matrix_of_complex
+from .rounding import LEAST_ALLOWANCE, combined, congruence
 
 __all__ = [
+    "LEAST_ALLOWANCE",
+    "combined",
+    "congruence",
     "check_options",
     "PeriodMatrix",
     "siegel_reduced",

@@ -21,7 +21,7 @@ exactly; the lengths of flipped edges are balls.
 ``length_balls``           lengths that follow flips, midpoints and barycentres
 ``linear_energies``        energies of forms that are linear on triangles
 ``polynomial_energies``    energies of forms of any degree, conical elements included
-``relative_radius``        how far a given Π can be off
+``siegel_radius``          how far a given Π can be off
 ``proved_energies``        forms near orthonormal, so that bounds are sharp in every marking
 ``surface_proofs``         all of it for a surface, step by step
 =========================  ====================================================================
@@ -33,7 +33,7 @@ Higham, "Accuracy and stability of numerical algorithms" (2002), chapter 3.
 """
 
 from .midpoint_radius import UNIT, Balls, check_arithmetic, norms, total
-from .relative_radius import relative_radius
+from .siegel_radius import relative_radius
 from .proved_energies import ProvedEnergies
 from .surface_proofs import (
     EnclosedProblem,

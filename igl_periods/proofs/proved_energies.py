@@ -38,7 +38,7 @@ from igl_periods.harmonic import Jumps, energy_factor
 from igl_periods.symplectic import product
 
 from .midpoint_radius import Balls
-from .relative_radius import BITS, energy_balls, relative_radius
+from .siegel_radius import BITS, energy_balls, relative_radius
 
 
 @dataclass(frozen=True, eq=False)

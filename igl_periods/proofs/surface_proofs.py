@@ -14,7 +14,7 @@ their sums when edges are flipped, and the canonical basis of cohomology.  The v
 forms are trusted to be nothing: a solver found them, and any values do.  Everything else is done
 in balls: the lengths of flipped edges and that they can be flipped
 (:mod:`~igl_periods.proofs.length_balls`), the shapes of triangles, the energies of the forms,
-and the last step to the period matrix (:mod:`~igl_periods.proofs.relative_radius`).
+and the last step to the period matrix (:mod:`~igl_periods.proofs.siegel_radius`).
 """
 
 from __future__ import annotations

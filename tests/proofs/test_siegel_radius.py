@@ -8,7 +8,7 @@ from support.modular_words import random_point
 
 from igl_periods.errors import NotPositiveDefiniteError
 from igl_periods.proofs.midpoint_radius import Balls
-from igl_periods.proofs.relative_radius import (
+from igl_periods.proofs.siegel_radius import (
     energy_balls,
     largest_eigenvalue,
     relative_radius,
