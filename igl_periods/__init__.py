@@ -16,8 +16,9 @@ page.  In reading order:
 ``topology``       K → integer cochains, cycles
 ``harmonic``       K, cochains → D, by linear functions
 ``elements``       K, cochains → D, by functions of high degree, conical at cone points
+``proofs``         the same energies in midpoint–radius arithmetic
 ``periods``        D → Π and its bound
-``enclosures``     proofs in ball arithmetic: Π to as many digits as are asked for
+``enclosures``     Π in balls, to as many digits as are asked for
 ``symplectic``     J, integer bases, the Williamson form: what D and Π have in common
 ``siegel``         Π → γ·Π reduced
 ``moduli``         Π₁, Π₂ → equivalence, symmetries, invariants
