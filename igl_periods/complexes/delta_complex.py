@@ -96,7 +96,7 @@ class DeltaComplex:
         Length that was added to every side to make all triangle inequalities strict.
     distortion : (m,) float or None
         How much rounding may have changed the metric of each face since the complex was given,
-        relative to it and in units of the machine epsilon; None where nothing was changed.
+        relative to it and in units of 2⁻⁵⁰; None where nothing was changed.
     """
 
     lengths: Floats
