@@ -101,3 +101,24 @@ def scaled_gradients(elements: Elements, block: Ints, coefficients: Floats) -> I
     across = (points.nodes[:, None, None] - foot) * u_s
     yield np.sqrt(kappa / aspect) * u_tau - across / np.sqrt(kappa * aspect)
     yield np.sqrt(aspect / kappa) * u_s
+
+
+def transposed_gradients(elements: Elements, block: Ints, along: Floats, down: Floats) -> Floats:
+    """The transpose of :func:`scaled_gradients`: from the points back to coefficients.
+
+    Parameters
+    ----------
+    along, down : (q, b, k) float
+
+    Returns
+    -------
+    (n, b, k) float
+    """
+    q, b, k = along.shape
+    points = elements.reference.quadrature
+    aspect, foot, kappa = (a[block, None] for a in (elements.aspect, elements.foot, elements.kappa))
+    tilt = (points.nodes[:, None, None] - foot) / np.sqrt(kappa * aspect)
+    by_tau = np.sqrt(kappa / aspect) * along
+    by_s = np.sqrt(aspect / kappa) * down - tilt * along
+    flat = points.by_tau.T @ by_tau.reshape(q, b * k) + points.by_s.T @ by_s.reshape(q, b * k)
+    return flat.reshape(-1, b, k)

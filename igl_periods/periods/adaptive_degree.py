@@ -46,6 +46,7 @@ from igl_periods.memory import available_memory
 from igl_periods.run_log import logger
 from igl_periods.symplectic import williamson_basis
 
+from .marking import marked_faces
 from .matrix import PeriodMatrix
 from .memory_estimates import high_order_memory, room_for_forms
 
@@ -236,16 +237,22 @@ def _logged(attempt: Attempt) -> Attempt:
 
 def _next_plan(attempts: list[Attempt], tolerance: float, limits: Limits) -> Plan | str:
     """The cheapest way to go on, or why there is none."""
-    last, rounding = attempts[-1], attempts[-1].result.rounding
-    if last.bound < 2.0 * rounding:
-        return f"rounding accounts for {rounding:.2g} of it"
-    if _stagnates(attempts):
+    last = attempts[-1]
+    # On needles the allowance is made of energy of the forms, and falls with their error: what it
+    # will come down to is not above the least that was seen.
+    rounding = min(attempt.result.rounding for attempt in attempts)
+    stagnates = _stagnates(attempts)
+    if last.bound < 2.0 * (last.result.rounding if stagnates else rounding):
+        return f"rounding accounts for {last.result.rounding:.2g} of it"
+    if stagnates:
         return "neither a higher degree nor smaller faces lower it further"
     target = max(tolerance, 1.2 * rounding)
     plans = [_raised(attempts, target)] if last.degree < HIGHEST_DEGREE else []
     if last.degree > 1:
-        plans.append(_divided(last, target))
+        plans += _divided(last, target)
     reasons = []
+    if not plans:
+        return "the degree is as high as it gets, and faces that hold it are too thin to be divided"
     for _, plan in sorted(plans, key=lambda costed: costed[0]):
         reason = _unaffordable(plan, limits)
         if reason is None:
@@ -289,19 +296,22 @@ def _discretisation(attempt: Attempt) -> float:
     return max(attempt.bound - attempt.result.rounding, np.finfo(float).eps)
 
 
-def _divided(last: Attempt, target: float) -> tuple[float, Plan]:
-    """The predicted cost of meeting the target by division, and the first round of it."""
+def _divided(last: Attempt, target: float) -> list[tuple[float, Plan]]:
+    """The predicted cost of meeting the target by division, and the first round of it.
+
+    Nothing where the faces that hold the bound are too thin.
+    """
     where = last.triangulation
-    order = np.argsort(-last.excess, kind="stable")
-    held = np.cumsum(last.excess[order])
-    marked = order[: 1 + int(np.searchsorted(held, _MARKED * held[-1]))]
+    marked = marked_faces(where.complex, last.excess, _MARKED)
+    if marked.size == 0:
+        return []
     finer = intrinsic_delaunay(*insert_barycentres(where.complex, where.cochains, marked))
     separated, _ = separate_cones(*finer)
     growth = count_unknowns(separated, last.degree) / last.unknowns
     rounds = np.ceil(np.log(last.bound / target) / np.log(_ROUND_RATIO))
     cost = float(np.sum(growth ** np.arange(1.0, rounds + 1.0)))
     divided = Triangulation(*finer, where.basis)
-    return cost, Plan(divided, last.degree, growth * last.seconds)
+    return [(cost, Plan(divided, last.degree, growth * last.seconds))]
 
 
 def _unaffordable(plan: Plan, limits: Limits) -> str | None:

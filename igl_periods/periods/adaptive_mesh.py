@@ -25,10 +25,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import partial
 
-import numpy as np
 from scipy.sparse import csr_array
 
-from igl_periods.arrays import Floats, Ints
+from igl_periods.arrays import Floats
 from igl_periods.complexes import (
     DeltaComplex,
     cotan_weights,
@@ -45,6 +44,7 @@ from igl_periods.harmonic import (
 from igl_periods.run_log import stage
 from igl_periods.topology import cohomology_basis
 
+from .marking import marked_faces
 from .matrix import PeriodMatrix
 from .rounding import LEAST_ALLOWANCE
 
@@ -86,8 +86,8 @@ def refined_period_matrix(
     bound : float
         The wanted bound, > 0.
     largest : int
-        No triangulation with more faces is made; where the bound is not reached by then, the last
-        result is returned.
+        No triangulation with more faces is made; where the bound is not reached by then, or all
+        faces that hold it are too thin to be divided, the last result is returned.
     local : bool
         Refine where the bound comes from (:mod:`igl_periods.harmonic.excess`), or divide every face
         into four each time.
@@ -114,7 +114,10 @@ def refined_period_matrix(
         with stage(f"refining {L.n_faces} faces"):
             if local:
                 excess = energy_excess(L, cochains, potentials, pm.dirichlet).sum(axis=0)
-                finer = insert_barycentres(L, cochains, _marked(excess)[: room // 2])
+                marked = marked_faces(L, excess, _MARKED_PART)[: room // 2]
+                if marked.size == 0:
+                    return Refined(pm, L, cochains, tuple(steps))
+                finer = insert_barycentres(L, cochains, marked)
             else:
                 finer = split(L, cochains)
             L, cochains = intrinsic_delaunay(*finer)
@@ -131,10 +134,3 @@ def _period_matrix(
     D = dirichlet_matrix(L, cochains, potentials)
     rounding = geometric_allowance(L, D, partial(dirichlet_matrix, L, cochains, potentials))
     return PeriodMatrix(D, True, cocycles, K, max(LEAST_ALLOWANCE, rounding))
-
-
-def _marked(excess: Floats) -> Ints:
-    """The fewest faces that hold half of the excess, the worst first."""
-    order = np.argsort(-excess, kind="stable")
-    held = np.cumsum(excess[order])
-    return order[: 1 + int(np.searchsorted(held, _MARKED_PART * held[-1]))]
