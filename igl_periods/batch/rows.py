@@ -28,14 +28,12 @@ import time
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass, replace
-from functools import cache
 from importlib.metadata import version
 from os import PathLike
 from typing import Any
 
 import flint
 import numpy as np
-from threadpoolctl import ThreadpoolController
 
 from igl_periods.complexes import DeltaComplex
 from igl_periods.meshes import MeshReport, components_by_genus, read_surface, surface_of
@@ -52,6 +50,7 @@ from igl_periods.periods import (
     period_matrix,
     reduced_if_feasible,
 )
+from igl_periods.threads import one_thread
 
 Row = dict[str, Any]
 # The columns in their order; every value may be None, except for the file.
@@ -155,7 +154,7 @@ def rows_of(
     lap = _stopwatch()
     name = str(path) if name is None else name
     common = _common(name, path, options)
-    with _linear_algebra().limit(limits=1):
+    with one_thread():
         return [{**row, **common} for row in _computed(path, options, name, lap)]
 
 
@@ -291,11 +290,6 @@ def _stopwatch() -> Callable[[], float]:
         return last - before
 
     return lap
-
-
-@cache
-def _linear_algebra() -> ThreadpoolController:
-    return ThreadpoolController()
 
 
 _alone = threading.Lock()

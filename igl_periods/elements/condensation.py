@@ -20,12 +20,11 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from functools import cache
 
 import numpy as np
-from threadpoolctl import ThreadpoolController
 
 from igl_periods.arrays import Floats, Ints
+from igl_periods.threads import one_thread
 
 from .placement import Elements
 
@@ -43,14 +42,9 @@ def condense(elements: Elements) -> Iterator[tuple[Ints, Floats, Floats]]:
     E : (b, n - 3p, 3p) float
     """
     blocks = list(elements.blocks(elements.reference.n_functions**2))
-    with _blas().limit(limits=1), ThreadPoolExecutor(os.cpu_count()) as pool:
+    with one_thread(), ThreadPoolExecutor(os.cpu_count()) as pool:
         for block, (S, E) in zip(blocks, pool.map(lambda b: condense_block(elements, b), blocks)):
             yield block, S, E
-
-
-@cache
-def _blas() -> ThreadpoolController:
-    return ThreadpoolController()
 
 
 def condense_block(elements: Elements, block: Ints) -> tuple[Floats, Floats]:
