@@ -60,7 +60,7 @@ class Isomorphisms(list[Ints]):
         the two surfaces is in the list, and an empty list proves that there is none.
     complete : bool
         Whether the search came to its end: neither the limit that was asked for nor the work
-        limit stopped it.
+        limit stopped it.  Nothing follows from what is not in an incomplete list.
     gave_up : str
         Which work limit stopped the search; empty if none did.
     """
@@ -69,7 +69,7 @@ class Isomorphisms(list[Ints]):
         super().__init__()
         self.tolerance = tolerance
         self.certified = certified
-        self.complete = True
+        self.complete = False
         self.gave_up = ""
 
     @property
@@ -80,6 +80,8 @@ class Isomorphisms(list[Ints]):
         if self:
             stopped = "" if self.complete else ", and there may be more"
             return f"{len(self)} transformations within {self.tolerance:.3g}{stopped}"
+        if not self.complete:
+            return "undecided: the search was stopped before it found a transformation"
         if self.certified:
             return "proved: the two polyhedral surfaces are not conformally equivalent"
         return f"no transformation within {self.tolerance:.3g}"
@@ -136,6 +138,7 @@ def symplectic_isomorphisms(
         _search(one, two, found, limit)
     else:
         found.append(np.zeros((0, 0), dtype=np.int64))
+        found.complete = True
     if reversing:
         # γ = γ' K, where γ' takes −Π̄₁ to Π₂ and K = diag(1, −1).
         found[:] = [gamma * np.repeat([1, -1], len(one)) for gamma in found]
@@ -171,7 +174,7 @@ def moduli_distance(Pi1: ArrayLike, Pi2: ArrayLike, tolerance: float) -> float:
     0.002002
     """
     found = symplectic_isomorphisms(Pi1, Pi2, tolerance)
-    if found.gave_up:
+    if not found.complete:
         raise EnumerationLimitError(found.gave_up)
     logarithms = logarithms_found(found, Pi1, Pi2)
     return float(np.linalg.norm(logarithms, axis=1).min(initial=math.inf))
@@ -224,8 +227,9 @@ def _search(one: Complexes, two: Complexes, found: Isomorphisms, limit: int | No
     try:
         for U in isometries(energy_matrix(point1), energy_matrix(point2), found.tolerance):
             if limit is not None and len(found) >= limit:
-                found.complete = False
                 return
             found.append(product(back, product(form_action(U).astype(np.int64), gamma1)))
     except EnumerationLimitError as error:
-        found.complete, found.gave_up = False, str(error)
+        found.gave_up = str(error)
+    else:
+        found.complete = True

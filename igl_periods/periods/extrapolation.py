@@ -99,7 +99,7 @@ def richardson(family: Family, sizes: Sequence[int], **options: Any) -> Extrapol
     ------
     ValueError
         If there are less than three sizes, they do not ascend, the genus changes, or the matrices
-        of two meshes are too far apart to be compared.
+        of two meshes are too far apart to be compared, or too symmetric.
 
     Examples
     --------
@@ -154,6 +154,11 @@ def _in_marking_of(finest: PeriodMatrix, pm: PeriodMatrix) -> PeriodMatrix:
         raise ValueError(f"the genus of the meshes changes, from {pm.genus} to {finest.genus}.")
     for tolerance in _SEARCHED:
         found = symplectic_isomorphisms(pm.matrix, finest.matrix, tolerance=tolerance)
+        if not found.complete:
+            raise ValueError(
+                "the search for the marking that two of the meshes have in common was given up "
+                f"({found.gave_up}): start with a finer mesh."
+            )
         if found:
             return pm.change_basis(min(found, key=lambda gamma: _moved(gamma, pm, finest)))
     raise ValueError(

@@ -150,7 +150,7 @@ def identify(Pi: ArrayLike, tolerance: float | None = None) -> Identification:
     matches, undecided = [], []
     for surface in surfaces:
         found = symplectic_isomorphisms(matrix, surface.matrix, known.radius)
-        if found.gave_up:
+        if not found.complete:
             undecided.append(surface.name)
         elif found:
             matches.append(_nearest(matrix, surface, found, known))
