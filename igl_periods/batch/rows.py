@@ -42,11 +42,12 @@ from igl_periods.moduli import (
     rosenhain_roots,
     vanishing_even_characteristics,
 )
+from igl_periods.options import checked_switch
 from igl_periods.periods import (
     PeriodMatrix,
     ToleranceWarning,
     as_complex,
-    check_options,
+    checked_options,
     period_matrix,
     reduced_if_feasible,
 )
@@ -86,6 +87,7 @@ COLUMNS: dict[str, Any] = {
 # The kind of error of a file on which workers died.
 DIED = "WorkerDied"
 _PRECISION = 96
+_SWITCHES = ("repair", "double", "delaunay")
 _BYTES_AT_ONCE = 2**20
 
 
@@ -114,7 +116,10 @@ class BatchOptions:
     tolerance: float | None = None
 
     def __post_init__(self) -> None:
-        check_options(self.weights, self.degree, self.tolerance)
+        degree, tolerance = checked_options(self.weights, self.degree, self.tolerance)
+        checked = {name: checked_switch(name, getattr(self, name)) for name in _SWITCHES}
+        for name, value in {**checked, "degree": degree, "tolerance": tolerance}.items():
+            object.__setattr__(self, name, value)
 
     def as_json(self) -> str:
         """All options, in one order."""

@@ -38,7 +38,7 @@ import igl
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from igl_periods.arrays import Floats, Ints
+from igl_periods.arrays import Floats, Ints, ReadOnlyArrays
 from igl_periods.errors import MeshError
 
 from .checked_arrays import (
@@ -65,7 +65,7 @@ from .triangles import mollify
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class DeltaComplex:
+class DeltaComplex(ReadOnlyArrays):
     """Euclidean triangles glued along their sides.
 
     Build one with :meth:`from_mesh`, :meth:`from_lengths`, :meth:`from_gluing` or
@@ -110,10 +110,6 @@ class DeltaComplex:
     positions: Floats | None = None
     mollification: float = 0.0
     distortion: Floats | None = None
-
-    def __post_init__(self) -> None:
-        for array in (self.lengths, self.twin, self.edge, self.sign, self.corner_vertex):
-            array.flags.writeable = False
 
     def __repr__(self) -> str:
         return (

@@ -36,6 +36,7 @@ from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Complexes, Floats, Ints
 from igl_periods.errors import EnumerationLimitError
+from igl_periods.options import checked_integer, checked_number, checked_switch
 from igl_periods.siegel import check_same_genus, log_eigenvalues, siegel_reduce, siegel_transform
 from igl_periods.symplectic import energy_matrix, form_action, product, unimodular_inverse
 
@@ -123,7 +124,8 @@ def symplectic_isomorphisms(
         If an argument is no point of the Siegel upper half-space.
     ValueError
         If the genera differ, the tolerance is not positive or too large to separate anything, or
-        there is no tolerance: an uncertified PeriodMatrix has none.
+        there is no tolerance: an uncertified PeriodMatrix has none.  If an option has no such
+        value.
 
     Examples
     --------
@@ -131,7 +133,8 @@ def symplectic_isomorphisms(
     [[[0, 1], [-1, 0]], [[0, -1], [1, 0]]]
     """
     one, two = check_same_genus(Pi1, Pi2)
-    if reversing:
+    limit = _checked_limit(limit)
+    if checked_switch("reversing", reversing):
         one = -one.conj()
     found = Isomorphisms(*_checked_tolerance(Pi1, Pi2, tolerance))
     if len(one):
@@ -196,15 +199,25 @@ def _checked_tolerance(
     if tolerance is None:
         t = sum(_log_bound(Pi) for Pi in (Pi1, Pi2)) + float(np.finfo(np.float64).eps)
     else:
-        t = float(tolerance)
+        t = checked_number("the tolerance", tolerance)
     if not t > 0:
         raise ValueError(f"the tolerance must be a positive number, not {tolerance}")
     if t >= LARGEST_TOLERANCE:
         raise ValueError(
-            f"a tolerance of {t:.3g} is too large to separate anything: it must be less than "
-            "log 2 = 0.693. Where it comes from certificates, refine the mesh or raise the degree."
+            f"a tolerance of {t!r} is too large to separate anything: it must be less than "
+            f"log 2 = {LARGEST_TOLERANCE!r}. Where it comes from certificates, refine the mesh "
+            "or raise the degree."
         )
     return t, certified
+
+
+def _checked_limit(limit: int | None) -> int | None:
+    if limit is None:
+        return None
+    number = checked_integer("limit", limit)
+    if number < 0:
+        raise ValueError(f"limit = {number}: a number of transformations is not negative.")
+    return number
 
 
 def _log_bound(Pi: Any) -> float:

@@ -32,7 +32,7 @@ References
 Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 3.
 """
 
-from .arguments import as_complex, check_options
+from .arguments import as_complex, checked_options
 from .matrix import PeriodMatrix, reduced_if_feasible, siegel_reduced
 from .certificate import certified_period_matrix
 from .adaptive_degree import ToleranceWarning
@@ -44,7 +44,7 @@ from .real_surfaces import real_structure
 
 __all__ = [
     "as_complex",
-    "check_options",
+    "checked_options",
     "PeriodMatrix",
     "siegel_reduced",
     "reduced_if_feasible",

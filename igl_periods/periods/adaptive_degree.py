@@ -125,7 +125,7 @@ class Plan:
 class Limits:
     """The most unknowns and bytes that an attempt may take; None where nobody set a limit."""
 
-    unknowns: int | None
+    unknowns: float | None
     memory: float | None
 
 
@@ -133,7 +133,7 @@ def period_matrix_within(
     triangulation: Triangulation,
     certify: Certify,
     tolerance: float,
-    max_unknowns: int | None = None,
+    max_unknowns: float | None = None,
     max_memory: float | None = None,
 ) -> PeriodMatrix:
     """Compute a period matrix whose certified bound is at most ``tolerance``.
@@ -150,7 +150,7 @@ def period_matrix_within(
         its rounding allowance.
     tolerance : float
         The bound to reach.
-    max_unknowns : int, optional
+    max_unknowns : number, optional
         No attempt has more unknowns in its sparse system than this.
     max_memory : float, optional
         No attempt takes more bytes than this, by default more than are available.
@@ -320,7 +320,7 @@ def _unaffordable(plan: Plan, limits: Limits) -> str | None:
     what = f"degree {plan.degree} on {plan.triangulation.complex.n_faces} faces takes"
     unknowns = count_unknowns(K, plan.degree)
     if limits.unknowns is not None and unknowns > limits.unknowns:
-        return f"{what} {unknowns} unknowns, and {limits.unknowns} are the limit"
+        return f"{what} {unknowns} unknowns, and {limits.unknowns:g} are the limit"
     needed = high_order_memory(K, plan.degree, cochains.shape[0])
     memory = available_memory() if limits.memory is None else limits.memory
     if needed > memory:

@@ -27,7 +27,7 @@ from functools import partial
 
 from scipy.sparse import csr_array
 
-from igl_periods.arrays import Floats
+from igl_periods.arrays import Floats, ReadOnlyArrays
 from igl_periods.complexes import (
     DeltaComplex,
     cotan_weights,
@@ -41,6 +41,7 @@ from igl_periods.harmonic import (
     geometric_allowance,
     harmonic_potentials,
 )
+from igl_periods.options import checked_integer, checked_number, checked_switch
 from igl_periods.run_log import stage
 from igl_periods.topology import cohomology_basis
 
@@ -53,7 +54,7 @@ _MARKED_PART = 0.5
 
 
 @dataclass(frozen=True, eq=False)
-class Refined:
+class Refined(ReadOnlyArrays):
     """A refined triangulation and the period matrix it gives.
 
     Attributes
@@ -95,12 +96,14 @@ def refined_period_matrix(
     Raises
     ------
     ValueError
-        If ``bound`` is not positive.
+        If ``bound`` is not positive, ``largest`` no integer or ``local`` neither True nor False.
     ComplexError
         If the surface is not closed, oriented and connected.
     """
+    bound = checked_number("the wanted bound", bound)
     if not bound > 0:
         raise ValueError(f"the wanted bound must be positive, not {bound}.")
+    largest, local = checked_integer("largest", largest), checked_switch("local", local)
     cocycles = cohomology_basis(K)
     L, cochains = intrinsic_delaunay(K, cocycles)
     steps: list[tuple[int, float]] = []

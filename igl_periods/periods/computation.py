@@ -27,11 +27,12 @@ from igl_periods.harmonic import (
     harmonic_problem,
     weighted_energies,
 )
+from igl_periods.options import checked_switch
 from igl_periods.run_log import stage
 from igl_periods.topology import cochains_and_basis
 
 from .adaptive_degree import Triangulation, period_matrix_within
-from .arguments import as_complex, check_options, edge_weights
+from .arguments import as_complex, checked_limits, checked_options, edge_weights
 from .certificate import certified_period_matrix, combined_cochains
 from .matrix import PeriodMatrix
 from .memory_estimates import check_high_order, room_for_forms
@@ -45,7 +46,7 @@ def period_matrix(
     delaunay: bool = True,
     degree: int = 1,
     tolerance: float | None = None,
-    max_unknowns: int | None = None,
+    max_unknowns: float | None = None,
     max_memory: float | None = None,
 ) -> PeriodMatrix:
     """Compute the period matrix of a closed, oriented, connected polyhedral surface.
@@ -69,7 +70,7 @@ def period_matrix(
         the bound falls exponentially with the degree.
     tolerance : float, optional
         Raise the degree, and divide faces where that is cheaper, until ``bound`` is at most this.
-    max_unknowns : int, optional
+    max_unknowns : number, optional
         With ``tolerance``: solve no system with more unknowns.
     max_memory : float, optional
         Bytes that the computation may take; by default what is available.  Where the functions of
@@ -107,7 +108,9 @@ def period_matrix(
     >>> pm.genus, bool(abs(pm.reduced().matrix[0, 0] - 1j) < 1e-12), pm.bound < 1e-12
     (1, True, True)
     """
-    check_options(weights, degree, tolerance)
+    degree, tolerance = checked_options(weights, degree, tolerance)
+    max_unknowns, max_memory = checked_limits(max_unknowns, max_memory)
+    delaunay = checked_switch("delaunay", delaunay)
     K = as_complex(surface, F)
     room = room_for_forms(K, max_memory)
     if weights == "extrinsic":

@@ -27,13 +27,14 @@ from typing import overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from igl_periods.arrays import Complexes, Ints
+from igl_periods.arrays import Complexes, Ints, ReadOnlyArrays
 from igl_periods.moduli import (
     ARRAY_TOLERANCE,
     LARGEST_TOLERANCE,
     logarithms_found,
     symplectic_isomorphisms,
 )
+from igl_periods.options import checked_number
 from igl_periods.siegel import check_siegel_point
 
 from .named_surface import NamedSurface
@@ -46,7 +47,7 @@ _EXACT_ERROR = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
-class Match:
+class Match(ReadOnlyArrays):
     r"""A named surface near a period matrix Π.
 
     Attributes
@@ -143,8 +144,10 @@ def identify(Pi: ArrayLike, tolerance: float | None = None) -> Identification:
     square torus: within 0: consistent with the accuracy of the array (1e-08); ...
     """
     matrix = check_siegel_point(Pi)
-    if tolerance is not None and not tolerance >= 0:
-        raise ValueError(f"the tolerance must not be negative, but it is {tolerance}")
+    if tolerance is not None:
+        tolerance = checked_number("the tolerance", tolerance)
+        if not tolerance >= 0:
+            raise ValueError(f"the tolerance must not be negative, but it is {tolerance}")
     known = _Knowledge.of(Pi, tolerance)
     surfaces = catalogue(len(matrix))
     matches, undecided = [], []
