@@ -6,10 +6,51 @@
 >>> K = ip.DeltaComplex.from_squares([((0, 0), (0, 2)), ((0, 1), (0, 3))], n=4)
 >>> ip.period_matrix(K).genus
 1
+
+The folders are the chapters of the mathematics, each with its conventions and formulas on the first
+page.  In reading order:
+
+=================  ============================================================================
+``meshes``         a file → V, F
+``complexes``      V, F → K, and the moves (K, c) → (K′, c′)
+``topology``       K → integer cochains, cycles
+``harmonic``       K, cochains → D, by linear functions
+``elements``       K, cochains → D, by functions of high degree, conical at cone points
+``periods``        D → Π and its bound
+``symplectic``     J, integer bases, the Williamson form: what D and Π have in common
+``siegel``         Π → γ·Π reduced
+``moduli``         Π₁, Π₂ → equivalence, symmetries, invariants
+``forms``          the discrete theory of the paper on Λ = Γ ⊕ Γ*
+``differentials``  Π on the mesh → holomorphic forms, parametrization, Abel–Jacobi
+``surfaces``       reference surfaces, their exact Π, and which of them a Π is
+``pictures``, ``reports``, ``cli``, ``batch``, ``distributed``
+=================  ============================================================================
 """
 
 from importlib.metadata import version as _version
 
+from . import forms, genus_two, surfaces
+from .errors import (
+    BatchError,
+    ComplexError,
+    EnumerationLimitError,
+    MemoryLimitError,
+    MeshError,
+    MissingExtraError,
+    NotASiegelPointError,
+    PeriodsError,
+    RenderError,
+)
+from .meshes import MeshReport, load_mesh, sample_files, split_components
+from .complexes import DeltaComplex, double, intrinsic_delaunay
+from .topology import (
+    cohomology_basis,
+    dual_homology_basis,
+    fundamental_polygon,
+    homology_basis,
+    shortest_loops,
+)
+from .harmonic import harmonic_form_blocks, harmonic_forms
 from .periods import (
     Extrapolation,
     PeriodMatrix,
@@ -20,32 +61,8 @@ from .periods import (
     real_structure,
     refined_period_matrix,
     richardson,
+    sampled_torus,
 )
-from .moduli import (
-    Isomorphisms,
-    SymplecticGroup,
-    moduli_distance,
-    symplectic_automorphism_group,
-    symplectic_isomorphisms,
-)
-from .surfaces import Identification, catalogue, identify
-from .complexes import DeltaComplex, double
-from .differentials import abel_jacobi, most_even_form, parametrize
-from .forms import (
-    DoubleGraph,
-    double_graph,
-    hodge_decomposition,
-    holomorphic_forms,
-    symplectic_mean_forms,
-)
-from .topology import (
-    cohomology_basis,
-    dual_homology_basis,
-    fundamental_polygon,
-    homology_basis,
-    shortest_loops,
-)
-from .errors import ComplexError, MemoryLimitError, MeshError, NotASiegelPointError
 from .siegel import (
     SIEGEL_GENUS_LIMIT,
     SiegelReduction,
@@ -54,56 +71,113 @@ from .siegel import (
     siegel_transform,
     to_flint,
 )
-from .harmonic import harmonic_form_blocks, harmonic_forms
-from .meshes import MeshReport, load_mesh
+from .moduli import (
+    Isomorphisms,
+    SymplecticGroup,
+    is_hyperelliptic,
+    j_invariant,
+    moduli_distance,
+    recognise_entries,
+    recognise_quadratic,
+    symplectic_automorphism_group,
+    symplectic_isomorphisms,
+    theta_constants,
+)
+from .forms import (
+    DoubleGraph,
+    double_graph,
+    hodge_decomposition,
+    holomorphic_forms,
+    symplectic_mean_forms,
+)
+from .differentials import (
+    abel_jacobi,
+    evenness,
+    form_of_periods,
+    form_of_real_periods,
+    most_even_form,
+    parametrize,
+)
+from .surfaces import Identification, catalogue, identify
 
 __version__ = _version("igl_periods")
 
 __all__ = [
-    "abel_jacobi",
-    "catalogue",
-    "cohomology_basis",
-    "ComplexError",
+    # meshes and complexes
+    "load_mesh",
+    "split_components",
+    "sample_files",
+    "MeshReport",
     "DeltaComplex",
     "double",
-    "double_graph",
-    "DoubleGraph",
-    "dual_homology_basis",
-    "Extrapolation",
-    "fundamental_polygon",
-    "harmonic_form_blocks",
-    "harmonic_forms",
-    "hodge_decomposition",
-    "holomorphic_forms",
+    "intrinsic_delaunay",
+    # topology
+    "cohomology_basis",
     "homology_basis",
-    "Identification",
-    "identify",
-    "Isomorphisms",
-    "load_mesh",
-    "MemoryLimitError",
-    "mesh_quality",
-    "MeshError",
-    "MeshReport",
-    "moduli_distance",
-    "most_even_form",
-    "NotASiegelPointError",
-    "parametrize",
+    "dual_homology_basis",
+    "fundamental_polygon",
+    "shortest_loops",
+    # period matrices
     "period_matrix",
     "period_matrix_from_weights",
     "PeriodMatrix",
-    "real_structure",
+    "ToleranceWarning",
+    "mesh_quality",
     "refined_period_matrix",
     "richardson",
-    "shortest_loops",
-    "siegel_distance",
-    "SIEGEL_GENUS_LIMIT",
+    "sampled_torus",
+    "Extrapolation",
+    "real_structure",
+    # the Siegel upper half-space
     "siegel_reduce",
     "siegel_transform",
+    "siegel_distance",
     "SiegelReduction",
-    "symplectic_automorphism_group",
-    "symplectic_isomorphisms",
-    "symplectic_mean_forms",
-    "SymplecticGroup",
+    "SIEGEL_GENUS_LIMIT",
     "to_flint",
-    "ToleranceWarning",
+    # moduli
+    "symplectic_isomorphisms",
+    "Isomorphisms",
+    "moduli_distance",
+    "symplectic_automorphism_group",
+    "SymplecticGroup",
+    "j_invariant",
+    "genus_two",
+    "theta_constants",
+    "is_hyperelliptic",
+    "recognise_quadratic",
+    "recognise_entries",
+    "identify",
+    "Identification",
+    "catalogue",
+    "surfaces",
+    # forms
+    "harmonic_forms",
+    "harmonic_form_blocks",
+    "forms",
+    "double_graph",
+    "DoubleGraph",
+    "hodge_decomposition",
+    "holomorphic_forms",
+    "symplectic_mean_forms",
+    "abel_jacobi",
+    "form_of_periods",
+    "form_of_real_periods",
+    "most_even_form",
+    "evenness",
+    "parametrize",
+    # errors
+    "PeriodsError",
+    "MeshError",
+    "ComplexError",
+    "NotASiegelPointError",
+    "MemoryLimitError",
+    "MissingExtraError",
+    "EnumerationLimitError",
+    "RenderError",
+    "BatchError",
 ]
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "__version__"]

@@ -7,9 +7,11 @@ the memory or caused the crash: it is handed back, to be tried alone.
 
 from __future__ import annotations
 
+import gc
 import logging
 import queue
 import signal
+import traceback
 from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import CancelledError
 from contextlib import contextmanager, suppress
@@ -119,6 +121,10 @@ def remote_cluster(address: str) -> Iterator[Client]:
         try:
             client = Client(address, timeout=_CONNECTING, set_as_default=False)
         except (OSError, ValueError) as error:
+            # What was half made closes itself when it is collected.  Let that be now: within a lock
+            # that the next client takes, it would wait for itself.
+            traceback.clear_frames(error.__traceback__)
+            gc.collect()
             raise BatchError(
                 f"there is no scheduler at {address} that can be reached ({error}). Start one with "
                 "'dask scheduler' and give the address that it prints."

@@ -32,21 +32,17 @@ from importlib.metadata import version
 from os import PathLike
 from typing import Any
 
-import flint
-import numpy as np
-
-from igl_periods.complexes import DeltaComplex
+from igl_periods.complexes import DeltaComplex, as_complex
 from igl_periods.meshes import MeshReport, components_by_genus, read_surface, surface_of
 from igl_periods.moduli import (
-    igusa_clebsch_invariants,
-    rosenhain_roots,
+    absolute_igusa_invariants,
+    certified_j_invariant,
     vanishing_even_characteristics,
 )
 from igl_periods.options import checked_switch
 from igl_periods.periods import (
     PeriodMatrix,
     ToleranceWarning,
-    as_complex,
     checked_options,
     period_matrix,
     reduced_if_feasible,
@@ -86,7 +82,6 @@ COLUMNS: dict[str, Any] = {
 }
 # The kind of error of a file on which workers died.
 DIED = "WorkerDied"
-_PRECISION = 96
 _SWITCHES = ("repair", "double", "delaunay")
 _BYTES_AT_ONCE = 2**20
 
@@ -250,7 +245,11 @@ def _period_columns(K: DeltaComplex, options: BatchOptions) -> Row:
 def _invariants(pm: PeriodMatrix) -> Row:
     """What is quick and known of the invariants of a reduced matrix."""
     if pm.genus == 1:
-        return _klein_invariant(pm)
+        found = certified_j_invariant(pm)
+        if found is None:
+            return {}
+        j, error = found
+        return {"j_real": j.real, "j_imag": j.imag, "j_error": error if pm.certified else None}
     if pm.genus not in (2, 3) or not pm.certified:
         return {}
     vanishing = vanishing_even_characteristics(pm)
@@ -259,30 +258,11 @@ def _invariants(pm: PeriodMatrix) -> Row:
     known: Row = {"vanishing_thetas": len(vanishing)}
     if pm.genus == 3:
         return known if vanishing else {**known, "hyperelliptic": False}
-    return {**known, "hyperelliptic": True, **({} if vanishing else _igusa_invariants(pm))}
-
-
-def _klein_invariant(pm: PeriodMatrix) -> Row:
-    with flint.ctx.workprec(_PRECISION):
-        j = pm.to_flint()[0, 0].modular_j()
-        if not j.is_finite():
-            return {}
-        error = float((j.real.rad() + j.imag.rad()).upper())
-    z = complex(j)
-    # The centre of the ball is rounded to double precision.
-    error += 2.0 * float(np.spacing(abs(z)))
-    return {"j_real": z.real, "j_imag": z.imag, "j_error": error if pm.certified else None}
-
-
-def _igusa_invariants(pm: PeriodMatrix) -> Row:
-    try:
-        i2, i4, i6, i10 = igusa_clebsch_invariants(rosenhain_roots(pm))
-    except ValueError:
-        return {}
-    absolute = np.array([i2**5, i2**3 * i4, i2**2 * i6]) / i10
-    if not np.isfinite(absolute).all():
-        return {}
-    return {"igusa_real": absolute.real.tolist(), "igusa_imag": absolute.imag.tolist()}
+    igusa = None if vanishing else absolute_igusa_invariants(pm)
+    if igusa is None:
+        return {**known, "hyperelliptic": True}
+    columns = {"igusa_real": igusa.real.tolist(), "igusa_imag": igusa.imag.tolist()}
+    return {**known, "hyperelliptic": True, **columns}
 
 
 def _stopwatch() -> Callable[[], float]:

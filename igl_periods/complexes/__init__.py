@@ -22,6 +22,8 @@ barycentres, the double.  The surface stays what it is, and the classes go along
 ``gluings``               which side is glued to which: twins, vertices, components
 ``glued_squares``         unit squares glued along sides, and grids of them
 ``delta_complex``         the complex itself
+``mesh_readers``          who knows how to read a mesh that is no V, F
+``surface_arguments``     whatever is called a surface, as a complex
 ``surface_checks``        closed, oriented, connected: what a period matrix needs
 ``half_edges``            both directions of every edge
 ``weights``               cotangent and extrinsic weights, cone angles
@@ -40,7 +42,7 @@ Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 2.
 Bobenko, Springborn, "A discrete Laplace–Beltrami operator for simplicial surfaces" (2007).
 """
 
-from .triangles import angles, cotangents, double_areas, length_sensitivity
+from .triangles import angles, apexes, cotangents, double_areas, length_sensitivity
 from .checked_arrays import (
     check_equal_when_glued,
     check_finite,
@@ -52,6 +54,7 @@ from .gluings import (
     components_of,
     corner_vertices,
     face_components,
+    MOST_TRIANGLES,
     index_type,
     next_corner,
     orientable_faces,
@@ -59,17 +62,27 @@ from .gluings import (
 )
 from .glued_squares import periodic_grid, squares
 from .half_edges import edge_ends, forward_half_edges, half_edge_ends, walk_vertices
+from .mesh_readers import is_array_like, mesh_reader
 from .delta_complex import DeltaComplex
+from .surface_arguments import (
+    BYTES_A_FACE_FLIPPING,
+    SurfaceLike,
+    as_complex,
+    of_a_surface,
+    of_a_surface_or,
+)
 from .surface_checks import check_closed_and_oriented, check_connected, check_surface, is_orientable
 from .weights import cone_angles, cotan_weights, extrinsic_weights
 from .cochains import along_sides, primitive
+from .marked_complex import MarkedComplex
 from .delaunay import cocircularity_allowance, delaunay_flips, intrinsic_delaunay, transport
 from .midpoint_subdivision import split
 from .barycentre_insertion import insert_barycentres, is_divisible
-from .doubling import double, involution
+from .doubling import Involution, double, involution, lift
 
 __all__ = [
     "angles",
+    "apexes",
     "cotangents",
     "double_areas",
     "length_sensitivity",
@@ -80,6 +93,7 @@ __all__ = [
     "checked_positions",
     "components_of",
     "corner_vertices",
+    "MOST_TRIANGLES",
     "index_type",
     "next_corner",
     "periodic_grid",
@@ -95,12 +109,20 @@ __all__ = [
     "check_connected",
     "check_surface",
     "is_orientable",
+    "is_array_like",
+    "mesh_reader",
     "DeltaComplex",
+    "BYTES_A_FACE_FLIPPING",
+    "SurfaceLike",
+    "as_complex",
+    "of_a_surface",
+    "of_a_surface_or",
     "cone_angles",
     "cotan_weights",
     "extrinsic_weights",
     "along_sides",
     "primitive",
+    "MarkedComplex",
     "cocircularity_allowance",
     "delaunay_flips",
     "intrinsic_delaunay",
@@ -110,4 +132,6 @@ __all__ = [
     "is_divisible",
     "double",
     "involution",
+    "lift",
+    "Involution",
 ]

@@ -79,6 +79,19 @@ def cotangents(lengths: Floats) -> Floats:
     return cot
 
 
+def apexes(lengths: Floats) -> tuple[Floats, Floats]:
+    """Corner 2 of triangles as side 2 sees it, which runs from 0 to 1; two arrays of shape (m,).
+
+    Returns
+    -------
+    foot, height : (m,) float
+        Where the foot of the height lies on side 2, from 0 to 1 if it is inside, and the height.
+    """
+    l0, l1, l2 = lengths.T
+    # Differences of lengths first: that keeps digits on thin triangles.
+    return 0.5 * (1.0 + ((l1 - l0) / l2) * ((l1 + l0) / l2)), double_areas(lengths) / l2
+
+
 @_in_blocks
 def angles(lengths: Floats) -> Floats:
     """Angles in radians, ``[f, s]`` at corner ``s``; shape (m, 3)."""

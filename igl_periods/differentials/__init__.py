@@ -23,8 +23,18 @@ Farkas, Kra, "Riemann surfaces" (1992), section III.6.
 Gu, Yau, "Global conformal surface parameterization" (2003).
 """
 
-from .jacobian import abel_jacobi
-from .even_form import most_even_form
+from .jacobian import AbelJacobi, abel_jacobi
+from .even_form import evenness, most_even_form
 from .parametrization import Parametrization, parametrize
+from .prescribed_periods import form_of_periods, form_of_real_periods
 
-__all__ = ["abel_jacobi", "most_even_form", "Parametrization", "parametrize"]
+__all__ = [
+    "AbelJacobi",
+    "abel_jacobi",
+    "form_of_periods",
+    "form_of_real_periods",
+    "evenness",
+    "most_even_form",
+    "Parametrization",
+    "parametrize",
+]

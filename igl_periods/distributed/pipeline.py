@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-from scipy.sparse import csr_array
+from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Floats
-from igl_periods.complexes import DeltaComplex, intrinsic_delaunay
+from igl_periods.complexes import (
+    DeltaComplex,
+    MarkedComplex,
+    as_complex,
+    intrinsic_delaunay,
+)
 from igl_periods.harmonic import allowance_for_loss, dirichlet_matrix, extreme_sensitivity
-from igl_periods.periods import PeriodMatrix, as_complex, certified_period_matrix
+from igl_periods.periods import PeriodMatrix, certified_period_matrix
 from igl_periods.run_log import stage
-from igl_periods.topology import cochains_and_basis
+from igl_periods.topology import mark
 
 from .collective import on_every_rank, on_root, scatter
 from .libraries import load_petsc, world
@@ -24,15 +26,6 @@ from .potentials import harmonic_potentials
 
 if TYPE_CHECKING:
     from mpi4py.MPI import Intracomm
-
-
-@dataclass(frozen=True, eq=False)
-class _Marked:
-    """A surface as it was given, thin cochains on it, and T such that T c is canonical."""
-
-    complex: DeltaComplex
-    cochains: csr_array
-    T: NDArray[np.int8]
 
 
 def period_matrix(
@@ -99,26 +92,25 @@ def period_matrix(
     def certify() -> PeriodMatrix:
         assert marked is not None and D is not None and loss is not None, "rank 0 has them"
         allowance = allowance_for_loss(D, loss)
-        return certified_period_matrix(marked.complex, marked.cochains, marked.T, D, allowance)
+        return certified_period_matrix(marked, D, allowance)
 
     return on_root(comm, certify)
 
 
 def _distributed(
     comm: Intracomm, surface: Any, F: ArrayLike | None, delaunay: bool
-) -> tuple[_Marked | None, Part]:
+) -> tuple[MarkedComplex | None, Part]:
     """Mark the surface and divide it, on rank 0; the part of each rank."""
 
-    def divide() -> tuple[_Marked, Partition]:
+    def divide() -> tuple[MarkedComplex, Partition]:
         K = as_complex(surface, F)
         with stage("homology"):
-            cochains, T = cochains_and_basis(K)
-        flipped, carried = K, cochains
+            given = flipped = mark(K)
         if delaunay:
             with stage("Delaunay flips"):
-                flipped, carried = intrinsic_delaunay(K, cochains)
+                flipped = given.after(intrinsic_delaunay)
         with stage("partition"):
-            return _Marked(K, cochains, T), Partition.of(flipped, carried, comm.size)
+            return given, Partition.of(flipped.complex, flipped.cochains, comm.size)
 
     # The flipped complex ends with this function: the parts are all that is needed of it.
     marked, partition = on_root(comm, divide) or (None, None)

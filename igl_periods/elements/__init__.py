@@ -38,6 +38,7 @@ from .least_energy import (
     high_order_forms,
     rounding_allowance,
 )
+from .point_values import edge_integrals, gradients, potentials
 
 __all__ = [
     "separate_cones",
@@ -47,4 +48,7 @@ __all__ = [
     "high_order_forms",
     "HighOrderForms",
     "rounding_allowance",
+    "potentials",
+    "gradients",
+    "edge_integrals",
 ]

@@ -38,7 +38,6 @@ from .descent import descended
 from .placement import Elements, choose_elements, separate_cones
 from .trace_system import condensed_system, factored_system, least_traces
 from .trial_forms import HighOrderForms, coefficients_on
-from .trial_forms import coefficients as coefficients
 
 
 def high_order_forms(K: DeltaComplex, cochains: csr_array, degree: int) -> HighOrderForms:

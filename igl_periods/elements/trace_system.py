@@ -24,8 +24,8 @@ from scipy.sparse import csc_matrix, csr_array
 
 from igl_periods.arrays import Floats, Ints
 from igl_periods.complexes import DeltaComplex
-from igl_periods.errors import ComplexError
-from igl_periods.harmonic import CholeskyFactor, NotPositiveDefiniteError, factor, solve
+from igl_periods.errors import ComplexError, NotPositiveDefiniteError
+from igl_periods.harmonic import CholeskyFactor, factor, solve
 
 from .condensation import condense
 from .placement import Elements

@@ -46,8 +46,17 @@ from .calculus import (
     type_10,
     wedge,
 )
-from .hodge import hodge_decomposition
-from .holomorphic import holomorphic_forms, symplectic_mean_forms
+from .hodge import HodgeDecomposition, hodge_decomposition
+from .holomorphic import holomorphic_forms, periods, symplectic_mean_forms
+from .quad_graph import (
+    on_diagonals,
+    quad_product,
+    side_d0,
+    side_d1,
+    side_ends,
+    side_product,
+    side_wedge,
+)
 
 __all__ = [
     "double_graph",
@@ -69,7 +78,16 @@ __all__ = [
     "type_01",
     "type_10",
     "wedge",
+    "HodgeDecomposition",
     "hodge_decomposition",
     "holomorphic_forms",
     "symplectic_mean_forms",
+    "side_ends",
+    "side_d0",
+    "side_d1",
+    "side_wedge",
+    "side_product",
+    "quad_product",
+    "on_diagonals",
+    "periods",
 ]

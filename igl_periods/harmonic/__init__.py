@@ -33,13 +33,14 @@ Chen, Davis, Hager, Rajamanickam, "Algorithm 887: CHOLMOD" (2008).
 """
 
 from .laplace_matrix import laplacian, outflow
-from .cholmod import CholeskyFactor, NotPositiveDefiniteError, factor, solve
+from .cholmod import CholeskyFactor, factor, solve
 from .potentials import factored, factored_laplacian, harmonic_potentials, solutions
 from .grouped_sums import sum_in_groups
 from .energies import (
     dirichlet_matrix,
     harmonic_energies,
     harmonic_problem,
+    HarmonicProblem,
     linear_energies,
     weighted_energies,
 )
@@ -51,9 +52,9 @@ from .harmonic_cochains import (
     side_matrix,
 )
 from .constant_forms import face_areas, linear_parts, spread_to_vertices
-from .excess import energy_excess
+from .excess import energy_excess, most_of
 from .rounding import (
-    POWER_STEPS,
+    energy_factor,
     TRIANGLE_ERROR,
     ULP,
     allowance_for_loss,
@@ -66,7 +67,6 @@ __all__ = [
     "outflow",
     "factored_laplacian",
     "CholeskyFactor",
-    "NotPositiveDefiniteError",
     "factor",
     "solve",
     "factored",
@@ -76,6 +76,7 @@ __all__ = [
     "dirichlet_matrix",
     "harmonic_energies",
     "harmonic_problem",
+    "HarmonicProblem",
     "linear_energies",
     "weighted_energies",
     "checked_basis",
@@ -87,10 +88,11 @@ __all__ = [
     "linear_parts",
     "spread_to_vertices",
     "energy_excess",
+    "energy_factor",
+    "most_of",
     "allowance_for_loss",
     "extreme_sensitivity",
     "geometric_allowance",
-    "POWER_STEPS",
     "TRIANGLE_ERROR",
     "ULP",
 ]

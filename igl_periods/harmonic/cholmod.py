@@ -19,7 +19,7 @@ from scipy.sparse import csc_array, csc_matrix
 from sksparse.cholmod import CholmodNotPositiveDefiniteError, Factor, analyze
 
 from igl_periods.arrays import Floats
-from igl_periods.errors import ComplexError
+from igl_periods.errors import NotPositiveDefiniteError
 from igl_periods.memory import release_freed_memory
 from igl_periods.run_log import progress
 from igl_periods.threads import without_lost_threads
@@ -28,10 +28,6 @@ _SOLVES_AT_ONCE = 32
 
 # From so many unknowns on, memory is put in order before it is filled.
 _LARGE = 100_000
-
-
-class NotPositiveDefiniteError(ComplexError):
-    """A sparse matrix is not positive definite; callers say of what it is the matrix."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,7 +17,7 @@ from __future__ import annotations
 import numpy as np
 
 from igl_periods.arrays import Complexes, Floats
-from igl_periods.complexes import DeltaComplex, along_sides, double_areas
+from igl_periods.complexes import DeltaComplex, along_sides, apexes, double_areas
 
 
 def face_areas(K: DeltaComplex) -> Floats:
@@ -33,10 +33,8 @@ def spread_to_vertices(K: DeltaComplex, values: Floats) -> Floats:
 
 def third_corners(K: DeltaComplex) -> Complexes:
     """Position of corner 2 of each face in its chart; (m,).  Corners 0 and 1 are 0 and l_2."""
-    l0, l1, l2 = K.lengths.T
-    # Differences of lengths first: that keeps digits on thin triangles.
-    shear = 0.5 * (1.0 + ((l1 - l0) / l2) * ((l1 + l0) / l2))
-    return shear * l2 + 1j * double_areas(K.lengths) / l2
+    foot, height = apexes(K.lengths)
+    return foot * K.lengths[:, 2] + 1j * height
 
 
 def gradients(K: DeltaComplex, forms: Floats) -> Complexes:

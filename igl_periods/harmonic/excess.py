@@ -14,6 +14,7 @@ estimate (the hypercircle of Prager and Synge).
 References
 ----------
 Prager, Synge, "Approximations in elasticity based on the concept of function space" (1947).
+Dörfler, "A convergent adaptive algorithm for Poisson's equation" (1996).
 """
 
 from __future__ import annotations
@@ -21,11 +22,12 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csr_array
 
-from igl_periods.arrays import Floats
+from igl_periods.arrays import Floats, Ints
 from igl_periods.complexes import DeltaComplex, edge_ends
 from igl_periods.symplectic import williamson_basis
 
 from .constant_forms import face_areas, gradients
+from .rounding import energy_factor
 
 
 def energy_excess(K: DeltaComplex, cochains: csr_array, potentials: Floats, D: Floats) -> Floats:
@@ -47,7 +49,7 @@ def energy_excess(K: DeltaComplex, cochains: csr_array, potentials: Floats, D: F
     (g, m) float
         Row i adds up to d_i − 1, where d is decreasing.
     """
-    pairs = williamson_basis(D)
+    pairs = williamson_basis(energy_factor(D))
     shares = np.empty((len(pairs), K.n_faces))
     area, (tail, head) = face_areas(K), edge_ends(K)
     by_edge = csr_array(cochains.T)
@@ -56,3 +58,10 @@ def energy_excess(K: DeltaComplex, cochains: csr_array, potentials: Floats, D: F
         x, y = gradients(K, (by_edge @ pair.T + f[head] - f[tail]).T)
         share[:] = 0.5 * area * np.abs(x + 1j * y) ** 2
     return shares
+
+
+def most_of(excess: Floats, part: float) -> Ints:
+    """The fewest faces that hold this part of the excess, the worst first (Dörfler's marking)."""
+    order = np.argsort(-excess, kind="stable")
+    held = np.cumsum(excess[order])
+    return order[: 1 + int(np.searchsorted(held, part * held[-1]))]

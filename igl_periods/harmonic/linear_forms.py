@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from igl_periods.arrays import Floats, Ints
-from igl_periods.complexes import DeltaComplex, double_areas, index_type
+from igl_periods.complexes import DeltaComplex, apexes, index_type
 from igl_periods.run_log import progress
 
 from .grouped_sums import sum_in_groups
@@ -92,20 +92,18 @@ class LinearForms:
 
         First the components along side 2 of each face, then those across it.
         """
-        l0, l1, l2 = self.faces.lengths[block].T
-        height = double_areas(self.faces.lengths[block]) / l2
-        # Differences of lengths first: that keeps digits on thin triangles.
-        shear = 0.5 * (1.0 + ((l1 - l0) / l2) * ((l1 + l0) / l2))
+        foot, height = apexes(self.faces.lengths[block])
+        base = self.faces.lengths[block, 2]
         at_0, at_1, at_2 = (self.potentials[corner] for corner in self.faces.corner_vertex[block].T)
         both = np.empty((2, *at_0.shape))
         u01, u02 = np.subtract(at_1, at_0, out=both[0]), np.subtract(at_2, at_0, out=both[1])
         # Side 2 runs from corner 0 to corner 1, side 1 from corner 2 to corner 0.
         self.jumps.add_to(u01, block.start, 2, 1)
         self.jumps.add_to(u02, block.start, 1, -1)
-        along, across = np.sqrt(0.5 * height / l2), np.sqrt(0.5 * l2 / height)
+        along, across = np.sqrt(0.5 * height / base), np.sqrt(0.5 * base / height)
         if self.faces.scale is not None:
             along, across = along * self.faces.scale[block], across * self.faces.scale[block]
-        u02 -= shear[:, None] * u01
+        u02 -= foot[:, None] * u01
         u01 *= along[:, None]
         u02 *= across[:, None]
         return both.reshape(2 * len(height), self.n_forms)

@@ -12,9 +12,9 @@ from scipy.sparse import csc_array, csc_matrix, csr_array
 
 from igl_periods.arrays import Floats
 from igl_periods.complexes import DeltaComplex, edge_ends
-from igl_periods.errors import ComplexError
+from igl_periods.errors import ComplexError, NotPositiveDefiniteError
 
-from .cholmod import CholeskyFactor, NotPositiveDefiniteError, factor, solve
+from .cholmod import CholeskyFactor, factor, solve
 from .laplace_matrix import grounded_laplacian, outflow
 
 

@@ -31,13 +31,14 @@ import scipy.linalg
 
 from igl_periods.arrays import Floats
 from igl_periods.complexes import DeltaComplex, length_sensitivity
+from igl_periods.errors import ComplexError, NotPositiveDefiniteError
 from igl_periods.symplectic import cholesky_factor
 
 ULP = 0.5 * float(np.finfo(np.float64).eps)
 TRIANGLE_ERROR = 8 * ULP
 # Faces up to this sensitivity are taken together: most are far below it.
 _ORDINARY = 100.0
-POWER_STEPS = 30
+_POWER_STEPS = 30
 
 
 def rounding_sensitivity(K: DeltaComplex) -> Floats:
@@ -70,6 +71,24 @@ def extreme_sensitivity(K: DeltaComplex) -> Floats:
     return np.where(sensitivity > _ORDINARY, sensitivity, 0.0)
 
 
+def energy_factor(D: Floats) -> Floats:
+    """The Cholesky factor of energies of harmonic forms.
+
+    Raises
+    ------
+    ComplexError
+        If they are not positive definite.
+    """
+    try:
+        return cholesky_factor(D)
+    except NotPositiveDefiniteError as error:
+        raise ComplexError(
+            f"the energy of the harmonic forms is {error}. Weights that are no energy do this, for "
+            "instance negative ones; so do surfaces too extreme for double precision, with "
+            "necks thinner than about 1e-7 of their length."
+        ) from error
+
+
 def allowance_for_loss(D: Floats, loss: Floats) -> float:
     """Relative error of D, from the sum of s_f D_f over the faces of extreme sensitivity s_f.
 
@@ -77,7 +96,7 @@ def allowance_for_loss(D: Floats, loss: Floats) -> float:
     """
     if not loss.any():
         return TRIANGLE_ERROR * _ORDINARY
-    R = cholesky_factor(D)
+    R = energy_factor(D)
     half = scipy.linalg.solve_triangular(R, loss, lower=True)
     whole = scipy.linalg.solve_triangular(R, half.T, lower=True)
     return TRIANGLE_ERROR * (_ORDINARY + _largest_eigenvalue(whole))
@@ -90,7 +109,7 @@ def _largest_eigenvalue(W: Floats) -> float:
     r is above it: much cheaper than eigenvalues.  At the latest the largest row sum is above.
     """
     row_sum, v = float(np.abs(W).sum(axis=1).max()), W[:, np.argmax(np.diag(W))]
-    for _ in range(POWER_STEPS):
+    for _ in range(_POWER_STEPS):
         v = W @ (v / np.linalg.norm(v))
     r = 1.05 * float(np.linalg.norm(v))
     while r < row_sum:

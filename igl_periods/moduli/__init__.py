@@ -38,8 +38,11 @@ from .equivalence import (
     symplectic_isomorphisms,
 )
 from .automorphisms import SymplecticGroup, symplectic_automorphism_group
-from .theta import vanishing_even_characteristics
-from .genus_two import igusa_clebsch_invariants, rosenhain_roots
+from .theta import is_hyperelliptic, theta_constants, vanishing_even_characteristics
+from .genus_two import absolute_igusa_invariants, igusa_clebsch_invariants, rosenhain_roots
+from .genus_one import certified_j_invariant, j_invariant
+from .quadratic_numbers import QuadraticGuess, recognise_entries, recognise_quadratic
+from .lattice_isometries import isometries
 
 __all__ = [
     "ARRAY_TOLERANCE",
@@ -53,4 +56,13 @@ __all__ = [
     "vanishing_even_characteristics",
     "igusa_clebsch_invariants",
     "rosenhain_roots",
+    "theta_constants",
+    "is_hyperelliptic",
+    "j_invariant",
+    "certified_j_invariant",
+    "absolute_igusa_invariants",
+    "recognise_quadratic",
+    "recognise_entries",
+    "QuadraticGuess",
+    "isometries",
 ]

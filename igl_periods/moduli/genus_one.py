@@ -10,12 +10,22 @@ Serre, "A course in arithmetic" (1973), chapter VII.
 
 from __future__ import annotations
 
+from typing import Protocol
+
 import flint
+import numpy as np
 from numpy.typing import ArrayLike
 
 from igl_periods.siegel import PRECISION
 
 from .theta import of_genus
+
+
+class SiegelBalls(Protocol):
+    """A point of the Siegel upper half-space that is known in balls, such as a period matrix."""
+
+    def to_flint(self) -> flint.acb_mat:
+        """The balls."""
 
 
 def j_invariant(Pi: ArrayLike) -> complex:
@@ -34,3 +44,26 @@ def j_invariant(Pi: ArrayLike) -> complex:
     matrix = of_genus(Pi, 1)
     with flint.ctx.workprec(PRECISION):
         return complex(flint.acb(complex(matrix[0, 0])).modular_j())
+
+
+def certified_j_invariant(pm: SiegelBalls) -> tuple[complex, float] | None:
+    """Klein's j and a bound of its error, from the balls of a certified period matrix.
+
+    Parameters
+    ----------
+    pm : PeriodMatrix
+        Of genus 1, best reduced.
+
+    Returns
+    -------
+    (complex, float) or None
+        None if the balls are so large that nothing is known of j.
+    """
+    with flint.ctx.workprec(PRECISION):
+        j = pm.to_flint()[0, 0].modular_j()
+        if not j.is_finite():
+            return None
+        error = float((j.real.rad() + j.imag.rad()).upper())
+    z = complex(j)
+    # The centre of the ball is rounded to double precision.
+    return z, error + 2.0 * float(np.spacing(abs(z)))

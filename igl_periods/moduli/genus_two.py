@@ -112,6 +112,34 @@ def igusa_clebsch_invariants(roots: ArrayLike) -> Complexes:
     return np.array([i2, i4, i6, _product(squares, combinations(range(6), 2))])
 
 
+def absolute_igusa_invariants(Pi: ArrayLike) -> Complexes | None:
+    r"""The absolute invariants :math:`(I_2^5, I_2^3 I_4, I_2^2 I_6) / I_{10}` of a curve.
+
+    Two curves of genus 2 with I₂ ≠ 0 are isomorphic iff all three agree.
+
+    Returns
+    -------
+    (3,) complex or None
+        None for a product of two elliptic curves, or what cannot be told from one.
+
+    References
+    ----------
+    Igusa, "Arithmetic variety of moduli for genus two" (1960), section 8.
+
+    Examples
+    --------
+    >>> Pi = 1j / np.sqrt(3) * np.array([[2, -1], [-1, 2]])  # y² = x⁶ − 1
+    >>> absolute_igusa_invariants(Pi).real.round(3).tolist()
+    [17066666.667, 480000.0, 148000.0]
+    """
+    try:
+        i2, i4, i6, i10 = igusa_clebsch_invariants(rosenhain_roots(Pi))
+    except ValueError:
+        return None
+    absolute = np.array([i2**5, i2**3 * i4, i2**2 * i6]) / i10
+    return absolute if np.isfinite(absolute).all() else None
+
+
 def _product(squares: Complexes, pairs: Iterable[Sequence[int]]) -> complex:
     return complex(np.prod([squares[i, j] for i, j in pairs]))
 

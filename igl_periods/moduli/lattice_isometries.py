@@ -31,7 +31,11 @@ import numpy as np
 import scipy.linalg
 
 from igl_periods.arrays import Bools, Floats, Ints
-from igl_periods.errors import EnumerationLimitError
+from igl_periods.errors import (
+    EnumerationLimitError,
+    NotASiegelPointError,
+    NotPositiveDefiniteError,
+)
 from igl_periods.siegel import lll_basis, short_vectors
 from igl_periods.symplectic import product, standard_form, unimodular_inverse
 
@@ -57,7 +61,7 @@ def isometries(G1: Floats, G2: Floats, tolerance: float) -> Iterator[Ints]:
         If there are too many short vectors, or too many partial maps had to be tried.
     """
     J = standard_form(len(G1) // 2)
-    V1, V2 = lll_basis(G1), lll_basis(G2)
+    V1, V2 = _reduced_basis(G1), _reduced_basis(G2)
     G1, G2 = V1 @ G1 @ V1.T, V2 @ G2 @ V2.T
     c = math.exp(tolerance) * (1 + _rounding(G1) + _rounding(G2))
     problem = _Problem(G1, G2, V1 @ J @ V1.T, V2 @ J @ V2.T, c)
@@ -65,6 +69,16 @@ def isometries(G1: Floats, G2: Floats, tolerance: float) -> Iterator[Ints]:
     for W in _assignments(problem):
         if _between(W @ G1 @ W.T, G2, c):
             yield product(back, product(W, V1))
+
+
+def _reduced_basis(G: Floats) -> Ints:
+    try:
+        return lll_basis(G)
+    except NotPositiveDefiniteError as error:
+        raise NotASiegelPointError(
+            f"the energies of a point are {error}: it is too close to the boundary of the Siegel "
+            "upper half-space to be compared"
+        ) from error
 
 
 def _rounding(G: Floats) -> float:

@@ -14,17 +14,19 @@ d the largest symplectic eigenvalue of D: the *bound*.  It is about the polyhedr
 triangles have the stored lengths.
 
 ====================  =========================================================================
-``arguments``         surfaces and options as callers hand them over
+``arguments``         options and weights as callers hand them over
 ``memory_estimates``  what a computation will take, before it is begun
 ``rounding``          what rounding can change between D and Π
 ``matrix``            the period matrix, its estimates and its bound
 ``certificate``       D and its allowance → the certified matrix
 ``adaptive_degree``   the degree that meets a tolerance
 ``computation``       the steps, one after the other
+``marking``           which faces are divided
 ``adaptive_mesh``     finer triangulations where the bound originates
 ``quality``           what limits the accuracy of a mesh
 ``extrapolation``     smooth surfaces from several meshes, uncertified
 ``real_surfaces``     the real structure of a double
+``recognition``       how a surface is recognised by its matrix
 ====================  =========================================================================
 
 References
@@ -32,18 +34,18 @@ References
 Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 3.
 """
 
-from .arguments import as_complex, checked_options
+from .arguments import checked_options
 from .matrix import PeriodMatrix, reduced_if_feasible, siegel_reduced
 from .certificate import certified_period_matrix
 from .adaptive_degree import ToleranceWarning
 from .computation import period_matrix, period_matrix_from_weights
-from .adaptive_mesh import refined_period_matrix
+from .adaptive_mesh import Refined, refined_period_matrix
 from .quality import MeshQuality, WIDE, mesh_quality
-from .extrapolation import Extrapolation, richardson
+from .extrapolation import Extrapolation, richardson, sampled_torus
 from .real_surfaces import real_structure
+from .recognition import matrix_of_complex
 
 __all__ = [
-    "as_complex",
     "checked_options",
     "PeriodMatrix",
     "siegel_reduced",
@@ -52,6 +54,7 @@ __all__ = [
     "ToleranceWarning",
     "period_matrix",
     "period_matrix_from_weights",
+    "Refined",
     "refined_period_matrix",
     "mesh_quality",
     "MeshQuality",
@@ -59,4 +62,6 @@ __all__ = [
     "Extrapolation",
     "richardson",
     "real_structure",
+    "matrix_of_complex",
+    "sampled_torus",
 ]

@@ -25,12 +25,12 @@ import time
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
-from scipy.sparse import csr_array
 
-from igl_periods.arrays import Floats, Ints
-from igl_periods.complexes import DeltaComplex, insert_barycentres, intrinsic_delaunay
+from igl_periods.arrays import Floats
+from igl_periods.complexes import MarkedComplex, insert_barycentres, intrinsic_delaunay
 from igl_periods.elements import (
     HighOrderForms,
     count_unknowns,
@@ -41,7 +41,7 @@ from igl_periods.elements import (
     separate_cones,
 )
 from igl_periods.errors import ComplexError
-from igl_periods.harmonic import linear_energies
+from igl_periods.harmonic import energy_factor, linear_energies
 from igl_periods.memory import available_memory
 from igl_periods.run_log import logger
 from igl_periods.symplectic import williamson_basis
@@ -65,30 +65,12 @@ class ToleranceWarning(UserWarning):
 
 
 @dataclass(frozen=True, eq=False)
-class Triangulation:
-    """A triangulation of the surface with the marking on it, before cone points are separated.
-
-    Attributes
-    ----------
-    complex : DeltaComplex
-    cochains : (2g, n_edges) sparse int
-        Closed.
-    basis : (2g, 2g) int
-        The matrix T for which T cochains is a canonical basis.
-    """
-
-    complex: DeltaComplex
-    cochains: csr_array
-    basis: Ints
-
-
-@dataclass(frozen=True, eq=False)
 class Attempt:
     """A certified period matrix, and what it took.
 
     Attributes
     ----------
-    triangulation : Triangulation
+    triangulation : MarkedComplex
     degree : int
     unknowns : int
     seconds : float
@@ -98,7 +80,7 @@ class Attempt:
         where the tolerance is met.
     """
 
-    triangulation: Triangulation
+    triangulation: MarkedComplex
     degree: int
     unknowns: int
     seconds: float
@@ -116,7 +98,7 @@ class Attempt:
 class Plan:
     """What to try next, and the time it should take, in seconds."""
 
-    triangulation: Triangulation
+    triangulation: MarkedComplex
     degree: int
     seconds: float
 
@@ -130,7 +112,7 @@ class Limits:
 
 
 def period_matrix_within(
-    triangulation: Triangulation,
+    triangulation: MarkedComplex,
     certify: Certify,
     tolerance: float,
     max_unknowns: float | None = None,
@@ -143,8 +125,8 @@ def period_matrix_within(
 
     Parameters
     ----------
-    triangulation : Triangulation
-        Of a closed, oriented, connected surface; best Delaunay.
+    triangulation : MarkedComplex
+        A closed, oriented, connected surface, before cone points are separated; best Delaunay.
     certify : callable
         Makes a period matrix of the Dirichlet matrix of forms in the classes of the cochains and
         its rounding allowance.
@@ -190,7 +172,7 @@ def period_matrix_within(
 
 
 def _linear_attempt(
-    triangulation: Triangulation, certify: Certify, max_memory: float | None
+    triangulation: MarkedComplex, certify: Certify, max_memory: float | None
 ) -> Attempt:
     start = time.perf_counter()
     K, cochains = triangulation.complex, triangulation.cochains
@@ -216,9 +198,9 @@ def _carried_out(plan: Plan, certify: Certify, tolerance: float) -> Attempt | st
     return _logged(Attempt(where, plan.degree, len(forms.traces), seconds, result, excess))
 
 
-def _excess(forms: HighOrderForms, where: Triangulation, result: PeriodMatrix) -> Floats:
+def _excess(forms: HighOrderForms, where: MarkedComplex, result: PeriodMatrix) -> Floats:
     """The shares of the faces before cone points were separated."""
-    pairs = williamson_basis(result.dirichlet) @ where.basis
+    pairs = williamson_basis(energy_factor(result.dirichlet)) @ where.basis
     shares = energy_excess(forms, pairs).sum(axis=0)
     return np.asarray(shares.reshape(where.complex.n_faces, -1).sum(axis=1))
 
@@ -302,26 +284,24 @@ def _divided(last: Attempt, target: float) -> list[tuple[float, Plan]]:
     Nothing where the faces that hold the bound are too thin.
     """
     where = last.triangulation
-    marked = marked_faces(where.complex, last.excess, _MARKED)
-    if marked.size == 0:
+    faces = marked_faces(where.complex, last.excess, _MARKED)
+    if faces.size == 0:
         return []
-    finer = intrinsic_delaunay(*insert_barycentres(where.complex, where.cochains, marked))
-    separated, _ = separate_cones(*finer)
-    growth = count_unknowns(separated, last.degree) / last.unknowns
+    finer = where.after(partial(insert_barycentres, faces=faces)).after(intrinsic_delaunay)
+    growth = count_unknowns(finer.after(separate_cones).complex, last.degree) / last.unknowns
     rounds = np.ceil(np.log(last.bound / target) / np.log(_ROUND_RATIO))
     cost = float(np.sum(growth ** np.arange(1.0, rounds + 1.0)))
-    divided = Triangulation(*finer, where.basis)
-    return [(cost, Plan(divided, last.degree, growth * last.seconds))]
+    return [(cost, Plan(finer, last.degree, growth * last.seconds))]
 
 
 def _unaffordable(plan: Plan, limits: Limits) -> str | None:
     """Why a plan is too large, if it is."""
-    K, cochains = separate_cones(plan.triangulation.complex, plan.triangulation.cochains)
+    separated = plan.triangulation.after(separate_cones)
     what = f"degree {plan.degree} on {plan.triangulation.complex.n_faces} faces takes"
-    unknowns = count_unknowns(K, plan.degree)
+    unknowns = count_unknowns(separated.complex, plan.degree)
     if limits.unknowns is not None and unknowns > limits.unknowns:
         return f"{what} {unknowns} unknowns, and {limits.unknowns:g} are the limit"
-    needed = high_order_memory(K, plan.degree, cochains.shape[0])
+    needed = high_order_memory(separated.complex, plan.degree, separated.rank)
     memory = available_memory() if limits.memory is None else limits.memory
     if needed > memory:
         return f"{what} about {needed / 1e9:.2g} GB of memory, and there are {memory / 1e9:.2g}"

@@ -1,43 +1,17 @@
-"""Surfaces and options as callers hand them over, checked."""
+"""Options and weights as callers hand them over, checked."""
 
 from __future__ import annotations
-
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Floats
 from igl_periods.complexes import DeltaComplex, check_equal_when_glued, checked_array
-from igl_periods.errors import ComplexError, MeshError
+from igl_periods.errors import ComplexError
 from igl_periods.options import checked_integer, checked_number, in_words
-from igl_periods.run_log import stage
-
-from .memory_estimates import check_faces
 
 _LARGEST_WEIGHT = 1e100
 _LARGEST_DEGREE = 1000
-
-
-def as_complex(surface: Any, F: ArrayLike | None = None) -> DeltaComplex:
-    """The Δ-complex of ``(V, F)`` or of a mesh object, or ``surface`` itself if it is one.
-
-    Mesh objects are Open3D's ``TriangleMesh`` and whatever else has ``vertices`` and ``triangles``
-    or ``faces``.
-    """
-    if isinstance(surface, DeltaComplex):
-        if F is not None:
-            raise MeshError("a DeltaComplex has its own faces: leave F away.")
-        return surface
-    if F is None and hasattr(surface, "vertices"):
-        faces = "triangles" if hasattr(surface, "triangles") else "faces"
-        surface, F = np.asarray(surface.vertices), getattr(surface, faces, None)
-    if F is None:
-        raise MeshError("faces are missing: call period_matrix(V, F), or period_matrix(K).")
-    corners = checked_array(F, "F", MeshError)
-    check_faces(len(corners) if corners.ndim else 0)
-    with stage("surface"):
-        return DeltaComplex.from_mesh(surface, corners)
 
 
 def checked_options(weights: str, degree: int, tolerance: float | None) -> tuple[int, float | None]:

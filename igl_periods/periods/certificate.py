@@ -6,12 +6,8 @@ applied to the 2g × 2g matrix, T D Tᵀ, not to 2g dense forms.
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-from scipy.sparse import csr_array
-
 from igl_periods.arrays import Floats
-from igl_periods.complexes import DeltaComplex
+from igl_periods.complexes import MarkedComplex
 from igl_periods.errors import ComplexError
 
 from .matrix import PeriodMatrix
@@ -21,11 +17,24 @@ from .rounding import LEAST_ALLOWANCE, combined, congruence
 _LARGEST_ROUNDING = 1.0
 
 
-def certified_period_matrix(
-    K: DeltaComplex, cochains: csr_array, T: NDArray[np.int8], raw: Floats, allowance: float
-) -> PeriodMatrix:
-    """The period matrix in the canonical basis T c, from energies in the classes c."""
-    D, loss = congruence(T, raw)
+def certified_period_matrix(given: MarkedComplex, raw: Floats, allowance: float) -> PeriodMatrix:
+    """The period matrix in the canonical basis, from energies in the classes of the cochains.
+
+    Parameters
+    ----------
+    given : MarkedComplex
+        The surface as it was given, before any flip.
+    raw : (2g, 2g) float
+        Energies of explicit forms in the classes of ``given.cochains``.
+    allowance : float
+        What rounding can have changed in them, relative to them.
+
+    Raises
+    ------
+    ComplexError
+        If that is so much that nothing is known of the matrix.
+    """
+    D, loss = congruence(given.basis, raw)
     rounding = combined(allowance, loss)
     if rounding > _LARGEST_ROUNDING:
         raise ComplexError(
@@ -36,12 +45,7 @@ def certified_period_matrix(
     return PeriodMatrix(
         dirichlet=D,
         certified=True,
-        cocycles=combined_cochains(T, cochains),
-        complex=K,
+        cocycles=given.cocycles(),
+        complex=given.complex,
         rounding=max(LEAST_ALLOWANCE, rounding),
     )
-
-
-def combined_cochains(T: NDArray[np.int8], cochains: csr_array) -> csr_array:
-    """The cochains T c, with integers that have room."""
-    return csr_array(csr_array(T.astype(np.int64)) @ cochains)

@@ -14,13 +14,21 @@ from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.sparse import csr_array
+from scipy.sparse import csc_matrix
 
 from igl_periods import elements
 from igl_periods.arrays import Floats
-from igl_periods.complexes import DeltaComplex, extrinsic_weights, intrinsic_delaunay
+from igl_periods.complexes import (
+    DeltaComplex,
+    MarkedComplex,
+    SurfaceLike,
+    as_complex,
+    extrinsic_weights,
+    intrinsic_delaunay,
+)
 from igl_periods.elements import high_order_forms, separate_cones
 from igl_periods.harmonic import (
+    HarmonicProblem,
     factored,
     harmonic_energies,
     harmonic_potentials,
@@ -29,17 +37,17 @@ from igl_periods.harmonic import (
 )
 from igl_periods.options import checked_switch
 from igl_periods.run_log import stage
-from igl_periods.topology import cochains_and_basis
+from igl_periods.topology import mark
 
-from .adaptive_degree import Triangulation, period_matrix_within
-from .arguments import as_complex, checked_limits, checked_options, edge_weights
-from .certificate import certified_period_matrix, combined_cochains
+from .adaptive_degree import period_matrix_within
+from .arguments import checked_limits, checked_options, edge_weights
+from .certificate import certified_period_matrix
 from .matrix import PeriodMatrix
 from .memory_estimates import check_high_order, room_for_forms
 
 
 def period_matrix(
-    surface: DeltaComplex | ArrayLike,
+    surface: SurfaceLike | ArrayLike,
     F: ArrayLike | None = None,
     *,
     weights: str = "intrinsic",
@@ -53,9 +61,10 @@ def period_matrix(
 
     Parameters
     ----------
-    surface : (n, d) array-like, DeltaComplex, or mesh object
-        Vertex positions V of a triangle mesh, a complex, or an object with ``vertices`` and
-        ``triangles`` or ``faces``, such as Open3D's ``TriangleMesh``.
+    surface : surface
+        Vertex positions V (n, d) of a triangle mesh, with F; a :class:`DeltaComplex`; ``(V, F)``;
+        a path; or a mesh of trimesh, Open3D, PyVista or meshio
+        (:func:`~igl_periods.complexes.as_complex`).
     F : (m, 3) array-like of int, optional
         Corners of the triangles, with V.
     weights : {"intrinsic", "extrinsic"}
@@ -116,18 +125,18 @@ def period_matrix(
     if weights == "extrinsic":
         return _uncertified(K, extrinsic_weights(K))
     with stage("homology"):
-        cochains, T = cochains_and_basis(K)
-    certify = partial(certified_period_matrix, K, cochains, T)
+        given = mark(K)
+    certify = partial(certified_period_matrix, given)
     if tolerance is not None:
-        where = Triangulation(*_triangulated(K, cochains, delaunay), T.astype(np.int64))
+        where = _triangulated(given, delaunay)
         return period_matrix_within(where, certify, tolerance, max_unknowns, max_memory)
     if degree > 1:
-        separated = separate_cones(*_triangulated(K, cochains, delaunay))
-        check_high_order(separated[0], degree, cochains.shape[0], max_memory)
-        return certify(*_high_order(*separated, degree))
+        separated = _triangulated(given, delaunay).after(separate_cones)
+        check_high_order(separated.complex, degree, given.rank, max_memory)
+        return certify(*_high_order(separated, degree))
     # Nothing keeps the flipped complex while its Laplacian is factored, nor this one afterwards:
     # the factor takes the memory of all of them.
-    laplacian, problem = harmonic_problem(*_triangulated(K, cochains, delaunay))
+    laplacian, problem = _linear_problem(_triangulated(given, delaunay))
     with stage("factorisation"):
         factor = factored(laplacian)
         del laplacian
@@ -161,20 +170,22 @@ def period_matrix_from_weights(rho: ArrayLike, twin: ArrayLike) -> PeriodMatrix:
     return _uncertified(K, edge_weights(K, rho))
 
 
-def _triangulated(
-    K: DeltaComplex, cochains: csr_array, delaunay: bool
-) -> tuple[DeltaComplex, csr_array]:
+def _triangulated(given: MarkedComplex, delaunay: bool) -> MarkedComplex:
     """The triangulation on which forms are computed, and the cochains there."""
     if not delaunay:
-        return K, cochains
+        return given
     with stage("Delaunay flips"):
-        return intrinsic_delaunay(K, cochains)
+        return given.after(intrinsic_delaunay)
 
 
-def _high_order(K: DeltaComplex, cochains: csr_array, degree: int) -> tuple[Floats, float]:
+def _linear_problem(where: MarkedComplex) -> tuple[csc_matrix, HarmonicProblem]:
+    return harmonic_problem(where.complex, where.cochains)
+
+
+def _high_order(where: MarkedComplex, degree: int) -> tuple[Floats, float]:
     """Dirichlet matrix of the forms of some degree, and what rounding can change in it."""
     with stage(f"forms of degree {degree}"):
-        forms = high_order_forms(K, cochains, degree)
+        forms = high_order_forms(where.complex, where.cochains, degree)
     with stage("energies"):
         D = elements.dirichlet_matrix(forms)
         return D, elements.rounding_allowance(forms, D)
@@ -182,9 +193,10 @@ def _high_order(K: DeltaComplex, cochains: csr_array, degree: int) -> tuple[Floa
 
 def _uncertified(K: DeltaComplex, rho: Floats) -> PeriodMatrix:
     with stage("homology"):
-        cochains, T = cochains_and_basis(K)
+        given = mark(K)
     with stage("harmonic forms"):
-        potentials = harmonic_potentials(K, rho, cochains)
+        potentials = harmonic_potentials(K, rho, given.cochains)
     with stage("energies"):
-        D = T @ weighted_energies(K, rho, cochains, potentials) @ T.T
-        return PeriodMatrix(D, certified=False, cocycles=combined_cochains(T, cochains), complex=K)
+        raw = weighted_energies(K, rho, given.cochains, potentials)
+        D = given.basis @ raw @ given.basis.T
+        return PeriodMatrix(D, certified=False, cocycles=given.cocycles(), complex=K)

@@ -1,10 +1,8 @@
 r"""Which faces are divided: those that hold most of the bound.
 
-With the shares of all faces in the numbers d_i − 1 that make the bound
-(:mod:`igl_periods.harmonic.excess`), the fewest faces are marked that hold a given part of it
-together (Dörfler's marking): then every round divides the bound by a constant factor.
-
-A face can be too thin for floating-point numbers to describe its parts.  In its place the faces
+The fewest faces that hold a given part of the excess are marked
+(:mod:`igl_periods.harmonic.excess`): then every round divides the bound by a constant factor.  But
+a face can be too thin for floating-point numbers to describe its parts.  In its place the faces
 next to it are divided: the Delaunay flips that follow shorten its long sides.
 
 References
@@ -18,6 +16,7 @@ import numpy as np
 
 from igl_periods.arrays import Floats, Ints
 from igl_periods.complexes import DeltaComplex, is_divisible
+from igl_periods.harmonic import most_of
 
 
 def marked_faces(K: DeltaComplex, excess: Floats, part: float) -> Ints:
@@ -36,9 +35,7 @@ def marked_faces(K: DeltaComplex, excess: Floats, part: float) -> Ints:
     (r,) int
         The worst first, neighbours last; empty where all of them are too thin.
     """
-    order = np.argsort(-excess, kind="stable")
-    held = np.cumsum(excess[order])
-    worst = order[: 1 + int(np.searchsorted(held, part * held[-1]))]
+    worst = most_of(excess, part)
     good = is_divisible(K.lengths[worst])
     if good.all():
         return worst

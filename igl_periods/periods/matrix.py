@@ -53,10 +53,11 @@ from scipy.sparse import csr_array
 
 from igl_periods.arrays import Complexes, Floats
 from igl_periods.complexes import DeltaComplex
+from igl_periods.display import matrix_html, matrix_latex, matrix_lines, paragraph_html, rounded_up
 from igl_periods.errors import ComplexError, NotASiegelPointError
+from igl_periods.harmonic import energy_factor
 from igl_periods.siegel import SIEGEL_GENUS_LIMIT, check_symplectic, siegel_reduce, to_flint
 from igl_periods.symplectic import (
-    cholesky_factor,
     form_action,
     product,
     siegel_point,
@@ -118,7 +119,7 @@ class PeriodMatrix:
 
     @cached_property
     def _factor(self) -> Floats:
-        return cholesky_factor(self.dirichlet)
+        return energy_factor(self.dirichlet)
 
     @cached_property
     def _williamson(self) -> tuple[Floats, Floats]:
@@ -244,9 +245,29 @@ class PeriodMatrix:
         return np.asarray(self.matrix, dtype=dtype)
 
     def __repr__(self) -> str:
-        bound = "not certified" if self.bound is None else f"bound {self.bound:.3g}"
-        matrix = np.array2string(self.matrix, precision=6, suppress_small=True, threshold=36)
-        return f"PeriodMatrix of genus {self.genus}, {bound}\n{matrix}"
+        bound = "not certified" if self.bound is None else f"bound {rounded_up(self.bound, 3)}"
+        matrix = [f"  {line}" for line in matrix_lines(self.matrix, self.entry_bounds)]
+        return "\n".join([f"PeriodMatrix of genus {self.genus}, {bound}", *matrix])
+
+    def _repr_html_(self) -> str:
+        title = paragraph_html(f"Period matrix Π of genus {self.genus}")
+        if self.genus == 0:
+            return title
+        matrix = matrix_html(self.matrix, self.entry_bounds)
+        return "\n".join([title, matrix, paragraph_html(self._accuracy())])
+
+    def _repr_latex_(self) -> str:
+        return rf"$\displaystyle \Pi = {matrix_latex(self.matrix, self.entry_bounds)}$"
+
+    def _accuracy(self) -> str:
+        """How far what is shown can be off, in a sentence."""
+        if self.bound is None:
+            return "Not certified: there is no bound, and digits are shown as they were computed."
+        return (
+            f"Certified: within {rounded_up(self.bound)} of the polyhedral surface's, relative to "
+            "its size. Digits that this does not support are not shown; the last one of each "
+            "number is off by 1 at most."
+        )
 
     def _blocks(self) -> tuple[Floats, Floats, Floats, Floats]:
         g, D = self.genus, self.dirichlet

@@ -25,12 +25,15 @@ from igl_periods.complexes import (
     cone_angles,
     cotan_weights,
     delaunay_flips,
+    of_a_surface,
     transport,
 )
+from igl_periods.display import facts_html, rounded_up
 from igl_periods.harmonic import (
     dirichlet_matrix,
     energy_excess,
     harmonic_potentials,
+    most_of,
     spread_to_vertices,
 )
 from igl_periods.topology import cohomology_basis
@@ -79,6 +82,26 @@ class MeshQuality(ReadOnlyArrays):
     vertex_excess: Floats
     near_cone: NDArray[np.bool_]
 
+    def __repr__(self) -> str:
+        bound, angles = rounded_up(self.bound, 3), _degrees(self.angles)
+        return f"MeshQuality(bound {bound}, angles {angles}, {self.flips} flips)"
+
+    def _repr_html_(self) -> str:
+        return facts_html("MeshQuality", self._facts())
+
+    def _facts(self) -> list[tuple[str, str]]:
+        wide = int(np.count_nonzero(self.cone_angles > WIDE))
+        return [
+            ("bound", rounded_up(self.bound, 3)),
+            ("angles", _degrees(self.angles)),
+            ("total angles", f"{_degrees(self.cone_angles)}, {wide} above 450°"),
+            ("edges that are not Delaunay", str(self.non_delaunay_edges)),
+            ("flips", str(self.flips)),
+            ("angles after flips", _degrees(self.delaunay_angles)),
+            ("half of the bound", f"in {self.half_of_the_bound} of {self.excess.size} triangles"),
+            ("mollification", f"{self.mollification:.3g}"),
+        ]
+
     @property
     def bound(self) -> float:
         """d_1 − 1, the bound of the period matrix but for rounding; 0 for genus 0."""
@@ -98,17 +121,22 @@ class MeshQuality(ReadOnlyArrays):
     @property
     def half_of_the_bound(self) -> int:
         """The least number of faces in which half of the bound originates."""
-        held = np.cumsum(np.sort(self.excess)[::-1])
-        return 1 + int(np.searchsorted(held, 0.5 * held[-1]))
+        return len(most_of(self.excess, 0.5))
 
 
+def _degrees(angles: Floats) -> str:
+    """The range of some angles."""
+    return f"{np.degrees(angles.min()):.3g}° to {np.degrees(angles.max()):.3g}°"
+
+
+@of_a_surface
 def mesh_quality(K: DeltaComplex) -> MeshQuality:
     """Measure what decides about the accuracy of the period matrix.
 
     Parameters
     ----------
-    K : DeltaComplex
-        Closed, oriented, connected.
+    K : surface
+        As for :func:`~igl_periods.period_matrix`: closed, oriented, connected.
 
     Raises
     ------

@@ -19,10 +19,10 @@ import scipy.linalg
 from numpy.typing import NDArray
 
 from igl_periods.arrays import Floats
-from igl_periods.harmonic import POWER_STEPS, TRIANGLE_ERROR, ULP
-from igl_periods.symplectic import cholesky_factor
+from igl_periods.harmonic import TRIANGLE_ERROR, ULP, energy_factor
 
 LEAST_ALLOWANCE = 1e-13
+_POWER_STEPS = 30
 
 
 def combined(one: float, other: float) -> float:
@@ -44,13 +44,13 @@ def congruence(U: NDArray[np.integer], D: Floats) -> tuple[Floats, float]:
     high = unit * np.rint(D / unit)
     changed = A @ high @ A.T + A @ (D - high) @ A.T
     changed = 0.5 * (changed + changed.T)
-    inverse = _absolute_inverse(cholesky_factor(changed))
+    inverse = _absolute_inverse(energy_factor(changed))
     terms = int(np.count_nonzero(A, axis=1).max())
     # The sum is rounded once, and again where it is made symmetric; the second product has so many
     # terms, none above unit / 2.
     rounded = 2 * _amplified(inverse, np.sqrt(np.diag(changed)))
     rounded += terms * unit * _amplified(inverse, sums)
-    given = _amplified(_absolute_inverse(cholesky_factor(D)), np.sqrt(np.diag(D)))
+    given = _amplified(_absolute_inverse(energy_factor(D)), np.sqrt(np.diag(D)))
     return changed, TRIANGLE_ERROR * given + ULP * rounded
 
 
@@ -85,7 +85,7 @@ def _skew_norm(R: Floats) -> float:
     comes from a few steps of the power method for 1 + M / ‖M‖, which stays positive.
     """
     (top, bottom), v, bound = np.split(R, 2), np.ones(len(R)), np.inf
-    for _ in range(POWER_STEPS):
+    for _ in range(_POWER_STEPS):
         image = top.T @ (bottom @ v) + bottom.T @ (top @ v)
         bound = min(bound, float((image / v).max()))
         v = v / v.max() + image / image.max()

@@ -28,7 +28,7 @@ import numpy as np
 from scipy.linalg import solve_triangular
 
 from igl_periods.arrays import Floats, Ints
-from igl_periods.errors import NotASiegelPointError
+from igl_periods.errors import NotPositiveDefiniteError
 from igl_periods.symplectic import int_array, unimodular_inverse
 
 from .enumeration import short_vectors
@@ -57,7 +57,7 @@ def lll_basis(Y: Floats) -> Ints:
 
     Raises
     ------
-    NotASiegelPointError
+    NotPositiveDefiniteError
         If Y is singular up to rounding, or U does not fit into 64-bit integers.
     """
     n = len(Y)
@@ -74,9 +74,8 @@ def lll_basis(Y: Floats) -> Ints:
         _, transformation = form.lll(True, _DELTA, _ETA, "gram")
         return int_array(transformation)
     except OverflowError as error:
-        raise NotASiegelPointError(
-            "the reduced basis does not fit into 64-bit integers: the matrix is too close to the "
-            "boundary of the Siegel upper half-space"
+        raise NotPositiveDefiniteError(
+            "too far from round: its reduced basis does not fit into 64-bit integers"
         ) from error
 
 
@@ -105,9 +104,8 @@ def _least_eigenvalue(Y: Floats) -> float:
         inverse = np.full(Y.shape, np.inf)
     condition = float(np.sum((inverse * np.sqrt(np.diag(Y))) ** 2))
     if not len(Y) * condition < _LARGEST_CONDITION:
-        raise NotASiegelPointError(
-            f"the imaginary part is singular up to rounding (condition {condition:.3g} with rows "
-            "scaled): the matrix is too close to the boundary of the Siegel upper half-space"
+        raise NotPositiveDefiniteError(
+            f"singular up to rounding (condition {condition:.3g} with rows scaled)"
         )
     return 1.0 / float(np.sum(inverse**2))
 

@@ -22,7 +22,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from igl_periods.arrays import Complexes, Floats, Ints
-from igl_periods.errors import NotASiegelPointError
+from igl_periods.errors import NotASiegelPointError, NotPositiveDefiniteError
 from igl_periods.run_log import progress
 from igl_periods.symplectic import product, unimodular_inverse
 
@@ -60,7 +60,13 @@ class Step(NamedTuple):
 def lattice_step(Pi: Complexes) -> Step:
     """γ = [[U, −S U⁻ᵀ], [0, U⁻ᵀ]]: reduce the lattice of Im Π, then shift Re Π."""
     g = len(Pi)
-    U = shortest_first(Pi.imag) if g <= _SHORTEST_VECTOR_GENUS else lll_basis(Pi.imag)
+    try:
+        U = shortest_first(Pi.imag) if g <= _SHORTEST_VECTOR_GENUS else lll_basis(Pi.imag)
+    except NotPositiveDefiniteError as error:
+        raise NotASiegelPointError(
+            f"the imaginary part is {error}: the matrix is too close to the boundary of the Siegel "
+            "upper half-space"
+        ) from error
     dual = unimodular_inverse(U).T
     X, Y = U @ Pi.real @ U.T, U @ Pi.imag @ U.T
     S = _integer_part(X)

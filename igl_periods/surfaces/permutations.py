@@ -20,7 +20,7 @@ def checked_permutation(images: ArrayLike, what: str) -> Ints:
     """The images as an array, if they are a permutation of 0..n−1."""
     array = np.asarray(images)
     if array.ndim != 1 or array.size == 0 or array.dtype.kind not in "iu":
-        raise ComplexError(f"{what} must be a list of squares, not an array {array.shape}.")
+        raise ComplexError(f"{what} must be a list of integers, not an array {array.shape}.")
     if not np.array_equal(np.sort(array), np.arange(array.size)):
         raise ComplexError(
             f"{what} is no permutation of 0, …, {array.size - 1}: {array.tolist()[:12]}."

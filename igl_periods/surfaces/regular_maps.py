@@ -42,7 +42,7 @@ from igl_periods.arrays import Complexes, Floats, Ints
 from igl_periods.complexes import DeltaComplex
 from igl_periods.errors import ComplexError
 
-from .permutations import Permutation, composed
+from .permutations import Permutation, checked_permutation, composed
 from .square_tiled import square_tiled_period_matrix
 from .subdivision import subdivide
 
@@ -157,7 +157,8 @@ def regular_map(rotation: ArrayLike, flip: ArrayLike, n: int = 1) -> DeltaComple
     >>> cube.n_vertices, cube.genus
     (8, 0)
     """
-    r, t = _permutation(rotation, "rotation"), _permutation(flip, "flip")
+    given = ((rotation, "rotation"), (flip, "flip"))
+    r, t = (tuple(checked_permutation(x, name).tolist()) for x, name in given)
     if len(r) != len(t):
         raise ComplexError(f"rotation permutes {len(r)} points and flip permutes {len(t)}.")
     identity = tuple(range(len(t)))
@@ -219,13 +220,6 @@ def _fans(twin: Ints, k: int) -> tuple[Floats, Ints]:
     lengths = np.empty((twin.size, 3))
     lengths[:] = 1.0, circumradius, circumradius
     return lengths, gluing
-
-
-def _permutation(images: ArrayLike, what: str) -> Permutation:
-    array = np.asarray(images)
-    if array.ndim != 1 or not np.array_equal(np.sort(array), np.arange(array.size)):
-        raise ComplexError(f"{what} is no permutation of 0, …, N - 1: {array.tolist()}.")
-    return tuple(int(i) for i in array)
 
 
 def _known(name: str) -> str:

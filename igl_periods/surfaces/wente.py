@@ -36,7 +36,6 @@ from math import gcd
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.optimize import brentq
 from scipy.special import ellipe, ellipj, ellipk, elliprd, elliprf, elliprj
 
 from igl_periods.arrays import Floats, Ints
@@ -242,6 +241,8 @@ def _constants(lobes: int, winding: int) -> _Constants:
             "lobes must be >= 2, and 0 < winding < lobes coprime to it."
         )
     # The root is simple, and what rounding leaves of 2E - K is below 1e-15.
+    from scipy.optimize import brentq  # slow to import, and seldom needed
+
     modulus = brentq(lambda m: 2 * ellipe(m) - ellipk(m), 0.5, 0.95, xtol=1e-16, rtol=1e-15)
     theta = float(np.arcsin(np.sqrt(modulus)))
     goal = 2 * np.pi * winding / lobes

@@ -19,18 +19,17 @@ from numpy.typing import NDArray
 from scipy.linalg import solve_triangular
 
 from igl_periods.arrays import Floats
-from igl_periods.errors import ComplexError
+from igl_periods.errors import NotPositiveDefiniteError
 
 
-def williamson_basis(D: Floats) -> Floats:
-    """Coefficients of the forms x_i, y_i in terms of the given ones; (g, 2, 2g).
+def williamson_basis(R: Floats) -> Floats:
+    """Coefficients of forms x_i, y_i in terms of the given ones, of energy D = R Rᵀ; (g, 2, 2g).
 
     x_i D x_jᵀ = y_i D y_jᵀ = d_i δ_ij, x_i J y_jᵀ = δ_ij, all other products are 0, d decreasing.
     """
-    g = len(D) // 2
+    g = len(R) // 2
     if g == 0:
         return np.zeros((0, 2, 0))
-    R = cholesky_factor(D)
     A = R[:g].T @ R[g:]
     # i (A − Aᵀ) is Hermitian with the eigenvalues ±d; an eigenvector u + i v of d spans with its
     # conjugate the plane on which the form RᵀJR is d times a quarter turn.
@@ -87,7 +86,7 @@ def williamson(D: Floats) -> tuple[Floats, Floats]:
 
     Raises
     ------
-    ComplexError
+    NotPositiveDefiniteError
         If D is not positive definite.
     """
     return williamson_of_factor(cholesky_factor(D))
@@ -117,16 +116,18 @@ def _singular_pairs(A: Floats) -> tuple[Floats, Floats]:
 
 
 def cholesky_factor(D: Floats) -> Floats:
-    """The lower triangular R with D = R Rᵀ; raises ComplexError if D is not positive definite."""
+    """The lower triangular R with D = R Rᵀ.
+
+    Raises
+    ------
+    NotPositiveDefiniteError
+    """
     try:
         return np.asarray(np.linalg.cholesky(D), dtype=np.float64)
     except np.linalg.LinAlgError as error:
         least = float(np.linalg.eigvalsh(D)[0]) if np.isfinite(D).all() else float("nan")
-        raise ComplexError(
-            f"the energy of the harmonic forms is not positive definite (least eigenvalue "
-            f"{least:.3g}, trace {np.trace(D):.3g}). Weights that are no energy do this, for "
-            "instance negative ones; so do surfaces too extreme for double precision, with "
-            "necks thinner than about 1e-7 of their length."
+        raise NotPositiveDefiniteError(
+            f"not positive definite (least eigenvalue {least:.3g}, trace {np.trace(D):.3g})"
         ) from error
 
 

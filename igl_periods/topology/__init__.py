@@ -30,22 +30,26 @@ Eppstein, "Dynamic generators of topologically embedded graphs" (2003).
 """
 
 from .spanning_trees import tree_cotree
-from .cohomology import cochains_and_basis, cohomology_basis, pairing
+from .cohomology import cochains_and_basis, cohomology_basis, mark, pairing
 from .cycles import homology_basis
 from .short_cycles import canonical_cycles
-from .dual_cycles import dual_homology_basis
-from .fundamental_group import fundamental_polygon, shortest_loops
+from .dual_cycles import crossing_cochain, dual_homology_basis, dual_walk
+from .fundamental_group import FundamentalPolygon, fundamental_polygon, shortest_loops
 from .cuts import cut_to_disk
 
 __all__ = [
     "tree_cotree",
     "cochains_and_basis",
     "cohomology_basis",
+    "mark",
     "pairing",
     "homology_basis",
     "canonical_cycles",
     "dual_homology_basis",
+    "FundamentalPolygon",
     "fundamental_polygon",
     "shortest_loops",
     "cut_to_disk",
+    "crossing_cochain",
+    "dual_walk",
 ]

@@ -30,6 +30,7 @@ from igl_periods.complexes import (
     half_edge_ends,
     index_type,
 )
+from igl_periods.display import arrays_repr
 from igl_periods.errors import ComplexError
 from igl_periods.options import checked_integer
 
@@ -47,6 +48,8 @@ class TreeCotree(ReadOnlyArrays):
     generators : (2g,) int
         The half-edges, running with their edges, of the edges in neither tree.
     """
+
+    __repr__ = arrays_repr
 
     vertex_parent: Ints
     face_parent: Ints

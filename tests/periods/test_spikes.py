@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from energies_in_300_bits import flipped_surface, linear_energies, polynomial_energies
 from flint import arb, arb_mat
+from support.energies_in_300_bits import flipped_surface, linear_energies, polynomial_energies
 
 import igl_periods as ip
 from igl_periods.complexes import cotan_weights, delaunay_flips, intrinsic_delaunay
