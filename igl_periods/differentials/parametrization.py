@@ -36,7 +36,7 @@ from igl_periods.display import facts_html
 from igl_periods.errors import ComplexError
 from igl_periods.harmonic import linear_parts
 from igl_periods.options import in_words
-from igl_periods.periods import PeriodMatrix
+from igl_periods.periods import PeriodMatrix, check_period_matrix
 from igl_periods.run_log import stage
 from igl_periods.topology import cut_to_disk
 
@@ -185,6 +185,7 @@ def parametrize(pm: PeriodMatrix, coefficients: ArrayLike) -> Parametrization:
 
 def checked_coefficients(pm: PeriodMatrix, coefficients: ArrayLike) -> Complexes:
     """Coefficients as a complex array of shape (g,), finite, not all 0, or an error."""
+    check_period_matrix(pm)
     if pm.genus == 0:
         raise ComplexError("the surface is a sphere (genus 0): it has no holomorphic differential.")
     given = checked_array(coefficients, "coefficients", ValueError)

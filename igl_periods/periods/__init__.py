@@ -35,7 +35,7 @@ Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 3.
 """
 
 from .arguments import checked_options
-from .matrix import PeriodMatrix, reduced_if_feasible, siegel_reduced
+from .matrix import PeriodMatrix, check_period_matrix, reduced_if_feasible, siegel_reduced
 from .certificate import certified_period_matrix
 from .adaptive_degree import ToleranceWarning
 from .computation import period_matrix, period_matrix_from_weights
@@ -48,6 +48,7 @@ from .recognition import matrix_of_complex
 __all__ = [
     "checked_options",
     "PeriodMatrix",
+    "check_period_matrix",
     "siegel_reduced",
     "reduced_if_feasible",
     "certified_period_matrix",
