@@ -33,6 +33,7 @@ from os import PathLike
 from typing import Any
 
 from igl_periods.complexes import DeltaComplex, as_complex
+from igl_periods.machine import one_thread
 from igl_periods.meshes import MeshReport, components_by_genus, read_surface, surface_of
 from igl_periods.moduli import (
     absolute_igusa_invariants,
@@ -47,7 +48,6 @@ from igl_periods.periods import (
     period_matrix,
     reduced_if_feasible,
 )
-from igl_periods.threads import one_thread
 
 Row = dict[str, Any]
 # The columns in their order; every value may be None, except for the file.

@@ -38,7 +38,7 @@ from igl_periods.elements import (
 )
 from igl_periods.errors import ComplexError
 from igl_periods.harmonic import energy_factor, factored
-from igl_periods.memory import available_memory
+from igl_periods.machine import available_memory
 from igl_periods.run_log import logger
 from igl_periods.symplectic import williamson_basis
 
