@@ -134,14 +134,14 @@ def enclose(
     if cochains.shape[0] == 0:
         return PeriodEnclosure(flint.arb_mat(0, 0), cochains, K, precision_of(digits))
     with stage("stars and faces"):
-        triangulation, cells, bits = _cut(K, lengths, cochains, digits)
+        triangulation, cells = _cut(K, lengths, cochains, digits)
     marking = csr_array(csr_array(T.astype(np.int64)) @ cochains)
     basis = flint.arb_mat(T.astype(np.int64).tolist())
 
     def prove(solution: Refined) -> PeriodEnclosure:
-        with stage("energies in balls"), flint.ctx.workprec(bits):
+        with stage("energies in balls"), flint.ctx.workprec(precision_of(digits)):
             D = basis * _energies(triangulation, solution, digits) * basis.transpose()
-        return PeriodEnclosure(D, marking, K, bits)
+        return PeriodEnclosure(D, marking, K, precision_of(digits))
 
     best, reason = _best_enclosure(cells, prove, digits, limits)
     if best.digits < digits:
@@ -155,9 +155,11 @@ def enclose(
 
 def _cut(
     K: DeltaComplex, lengths: ExactLengths, cochains: csr_array, digits: int
-) -> tuple[Triangulation, Cells, int]:
-    """The cells of a good triangulation, and a precision at which they are known well enough."""
-    bits = precision_of(digits)
+) -> tuple[Triangulation, Cells]:
+    """The cells of a good triangulation, known well enough."""
+    # Where coefficients of series are large, as many bits again may cancel.
+    wanted = 2 * precision_of(digits)
+    bits = wanted
     while True:
         with flint.ctx.workprec(bits):
             triangulation = Triangulation.of(K, checked_balls(lengths, K, bits), cochains)
@@ -165,9 +167,9 @@ def _cut(
             few = digits <= _DIGITS_IN_FLOATS
             improve_shapes(triangulation, _RATIO_FOR_FEW_DIGITS if few else _RATIO)
             cells = cells_of(triangulation)
-        missing = precision_of(digits) - _GUARD_BITS - cells.accuracy_in_bits()
+        missing = wanted - _GUARD_BITS - cells.accuracy_in_bits()
         if missing <= 0:
-            return triangulation, cells, bits
+            return triangulation, cells
         if 2 * bits > _MOST_BITS:
             raise ComplexError(
                 f"with {bits} bits the shape of a cell is known to {cells.accuracy_in_bits()} bits "
@@ -250,7 +252,8 @@ def _energies(surface: Triangulation, solution: Refined, digits: int) -> flint.a
             if radius < _NEGLIGIBLE * 10.0**-digits:
                 return raw
             logger.info("double precision leaves energies unknown by %.2g", radius)
-    return dirichlet_enclosure(surface, solution.series, -_LOG_10 * accuracy)
+    with flint.ctx.workprec(precision_of(digits) + solution.series.excess_bits):
+        return dirichlet_enclosure(surface, solution.series, -_LOG_10 * accuracy)
 
 
 def _proved(found: PeriodEnclosure) -> float:

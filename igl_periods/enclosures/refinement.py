@@ -22,7 +22,7 @@ from igl_periods.arrays import Complexes, Floats
 
 from .interface_nodes import InterfaceNodes, gauss_nodes
 from .least_squares import LeastSquares
-from .series import PowerTables, Series, face_trace, star_traces
+from .series import PowerTables, Series, excess_bits, exponent_of, face_trace, star_traces
 from .trial_functions import TrialFunctions
 
 Acb = flint.acb
@@ -110,7 +110,7 @@ def refined(problem: LeastSquares, goal: float) -> Refined:
         if level <= -goal or gain > _LEAST_GAIN or done:
             return best
         series = expansion.added(series, update, exponent)
-        with flint.ctx.workprec(precision_of(-level + _GAIN)):
+        with flint.ctx.workprec(precision_of(-level + _GAIN) + series.excess_bits):
             exponent, values, slopes = _residual(nodes, series, tables)
 
 
@@ -169,7 +169,7 @@ def _residual(
         other = face_trace(series.on_segment(i, 1), tables, n_nodes[i], 1)
         defects[i] = _defect(series, tables, i, n_nodes[i], other)
     exponent = max(
-        (_exponent(x) for defect in defects for x in defect.entries()),  # type: ignore[union-attr]
+        (exponent_of(x) for defect in defects for x in defect.entries()),  # type: ignore[union-attr]
         default=0,
     )
     scale = flint.arb(flint.fmpz(1)) / flint.arb(2) ** exponent
@@ -199,11 +199,6 @@ def _defect(
     return flint.arb_mat(rows)
 
 
-def _exponent(x: flint.arb) -> int:
-    mantissa, exponent = x.mid().man_exp()
-    return int(exponent) + abs(int(mantissa)).bit_length() if mantissa else -(10**9)
-
-
 class Expansion:
     """From coefficients of Newton bases to those of power series.
 
@@ -226,7 +221,8 @@ class Expansion:
         found = []
         for cell, a in enumerate(update):
             forms = [self._expanded(cell, column) for column in a.T.tolist()]
-            with flint.ctx.workprec(self.bits):
+            # Coefficients may be large and cancel each other; errors are to be small as they are.
+            with flint.ctx.workprec(self.bits + max(0, exponent + excess_bits(forms))):
                 if series is None:
                     found.append([[(c * scale).mid() for c in form] for form in forms])
                     continue
