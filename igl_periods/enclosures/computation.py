@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
 from igl_periods.arrays import Floats, Ints
-from igl_periods.complexes import DeltaComplex, ExactLengths
+from igl_periods.complexes import DeltaComplex, ExactLengths, MarkedComplex
 from igl_periods.errors import ComplexError, MemoryLimitError
 from igl_periods.memory import available_memory
 from igl_periods.periods import ToleranceWarning
@@ -45,7 +45,7 @@ from .refinement import Refined, precision_of, refined
 from .surface_choice import surface_and_lengths
 from .trial_functions import trial_functions
 from .triangulation import Triangulation
-from .upper_energies import canonical_in_forms, upper_energies
+from .upper_energies import canonical_in_forms, linear_upper_energies, upper_energies
 
 MOST_DIGITS = 1000
 """More digits than this are refused: they would take days."""
@@ -140,7 +140,14 @@ def enclose(
             D = _energies(triangulation, solution, T.astype(np.int64), digits)
         return PeriodEnclosure(D, marking, K, precision_of(digits))
 
+    def prove_less() -> PeriodEnclosure:
+        with stage("forms that are linear on triangles"), flint.ctx.workprec(precision_of(digits)):
+            D = linear_upper_energies(MarkedComplex(K, cochains, T), lengths)
+        return PeriodEnclosure(D, marking, K, precision_of(digits))
+
     best, reason = _best_enclosure(cells, prove, digits, limits)
+    if best is None:
+        best = prove_less()
     if best.digits < digits:
         warnings.warn(
             f"{best.digits} digits are proved, {digits} were asked for: {reason}.",
@@ -177,8 +184,11 @@ def _cut(
 
 def _best_enclosure(
     cells: Cells, prove: Callable[[Refined], PeriodEnclosure], digits: int, limits: _Limits
-) -> tuple[PeriodEnclosure, str]:
-    """Solve in stages and prove; again with a higher goal as long as digits are missing."""
+) -> tuple[PeriodEnclosure | None, str]:
+    """Solve in stages and prove; again with a higher goal as long as digits are missing.
+
+    The result is the best that was proved, None if that is nothing, and why it is not better.
+    """
     # Energies add up the squares of the jumps on all segments, about a tenth of the largest ones.
     margin = 0.5 * float(np.log10(max(cells.n_interfaces / 10.0, 1.0)))
     final = 0.5 * (digits + _RESERVE) + margin
@@ -201,15 +211,17 @@ def _best_enclosure(
             reason = limits.exceeded_by(cells, size)
             if not reason:
                 continue
-        found = prove(closest)
+        try:
+            found = prove(closest)
+            proved = _proved(found)
+        except ComplexError as error:
+            return best, f"nothing more can be proved ({error})"
         gained = best is None or found.bound < best.bound
         best = found if gained else best
-        assert best is not None
-        if best.digits >= digits:
+        if proved >= digits:
             return best, ""
         if reason or not gained:
             return best, reason or _STALLED
-        proved = _proved(found)
         logger.info("%.2f digits proved", proved)
         final += 0.5 * (digits - proved + _RESERVE)
         goal, size = _larger(cells, solution, goal, final, 0.5 * proved + margin)
@@ -266,7 +278,11 @@ def _energies_in_floats(
 
 
 def _proved(found: PeriodEnclosure) -> float:
-    """Proved digits, with fractions, also where they are negative."""
+    """Proved digits, with fractions; nothing is proved where they are negative."""
+    if found.bound == 0:
+        return float(found.digits)
+    if not found.bound < 1:
+        raise ComplexError("the energies are known too badly for a period matrix.")
     with flint.ctx.workprec(64):
         return -float(found.bound.log().mid()) / _LOG_10
 

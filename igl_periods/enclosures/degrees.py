@@ -24,7 +24,7 @@ _FIRST_RADIAL = 2.2
 _RATE, _SLOWEST, _FASTEST = 0.3, 0.04, 1.2
 _MARGIN = 0.3
 # The radial degree at which a rate is to be believed by half.
-_SLOWER = 5.0
+_SLOWER = 4.0
 # Logarithms of sizes that are about the same; and how much larger than its last coefficient a jump
 # may be that is laid to a cell.
 _DOUBT, _MOST_BLAME = 0.5, 2.0
