@@ -245,9 +245,7 @@ def _solution(cells: Cells, size: Ints, goal: float) -> Refined:
     return refined(problem, goal)
 
 
-def _energies(
-    surface: Triangulation, solution: Refined, basis: Ints, digits: int
-) -> flint.arb_mat:
+def _energies(surface: Triangulation, solution: Refined, basis: Ints, digits: int) -> flint.arb_mat:
     """Upper bounds of energies: in double precision where few digits are wanted."""
     accuracy = digits + _QUADRATURE_DIGITS
     if digits <= _DIGITS_IN_FLOATS:
