@@ -21,8 +21,8 @@ surfaces are *proved* to be different.  A tolerance t stands for c = e^t, so tha
 An integer U with U J Uᵀ = −J reverses the orientation.
 
 **Balls.**  Where the matrices are known in balls, nothing is tolerated: all U are enumerated for
-which U G₁ Uᵀ and G₂ overlap (:mod:`igl_periods.moduli.ball_isometries`), at the precision of the
-balls.  None is a proof that the surfaces differ.  One that is found proves that the two matrices
+which U G₁ Uᵀ and G₂ overlap (:mod:`~igl_periods.moduli.isometries_in_balls`), at the precision of
+the balls.  None is a proof that the surfaces differ.  One that is found proves that the matrices
 agree to the digits that are known, and no number of digits proves them equal.
 
 References
@@ -54,8 +54,8 @@ from igl_periods.siegel import (
 )
 from igl_periods.symplectic import energy_matrix, form_action, product, unimodular_inverse
 
-from .ball_isometries import ball_isometries
 from .balls_in_comparison import ReducedBalls, agreeing_digits, in_balls, reduced_balls
+from .isometries_in_balls import ball_isometries
 from .lattice_isometries import isometries
 
 # What a plain array is taken to be right to, and the largest tolerance: with lengths uncertain by

@@ -22,7 +22,7 @@ from igl_periods.arrays import Complexes, Ints
 from .ball_action import moved_balls
 
 PRECISION = 96
-# Bits that a computation takes beyond those of the mantissas that it is given.
+# Bits that a computation takes beyond those that are known.
 _GUARD_BITS = 32
 
 
@@ -53,11 +53,16 @@ def balls_of(Pi: Any) -> flint.acb_mat | None:
 
 
 def bits_of(Pi: Any) -> int:
-    """A precision that loses nothing of what is known about a point; at least ``PRECISION``."""
+    """A precision that loses nothing of what is known about a point.
+
+    At least ``PRECISION``; of a matrix of balls at least the working precision too, since what is
+    exact is known to any number of digits.
+    """
     if not isinstance(Pi, flint.acb_mat):
         return max(int(getattr(Pi, "bits", PRECISION)), PRECISION)
-    used = [max(z.real.bits(), z.imag.bits()) for z in Pi.entries()]
-    return max(PRECISION, max(used, default=0) + _GUARD_BITS)
+    parts = [x for z in Pi.entries() for x in (z.real, z.imag)]
+    known = [x.bits() if x.is_exact() else max(x.bits(), x.rel_accuracy_bits()) for x in parts]
+    return max(PRECISION, flint.ctx.prec, max(known, default=0) + _GUARD_BITS)
 
 
 def midpoint(balls: flint.acb_mat) -> Complexes:

@@ -22,11 +22,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
+import flint
 import numpy as np
 
-from igl_periods.arrays import Complexes
+from igl_periods.arrays import Complexes, Ints
 from igl_periods.symplectic import integer_symplectic_basis
 
+from . import exact_matrices as exact
 from .named_surface import NamedSurface
 
 
@@ -58,12 +60,17 @@ def binomial_period_matrix(n: int) -> Complexes:
     if n < 3:
         raise ValueError(f"y^2 = x^{n} - 1 is rational: take n >= 3")
     g = (n - 1) // 2
-    intersections = np.eye(2 * g, k=1, dtype=np.int64) - np.eye(2 * g, k=-1, dtype=np.int64)
     exponents = np.outer(np.arange(1, g + 1), np.arange(2 * g))
     periods = np.exp(2j * np.pi * (exponents % n) / n)
-    a, b = np.hsplit(periods @ integer_symplectic_basis(intersections).T, 2)
+    a, b = np.hsplit(periods @ _binomial_basis(g).T, 2)
     Pi = np.asarray(np.linalg.solve(a, b), dtype=np.complex128)
     return 0.5 * (Pi + Pi.T)
+
+
+def _binomial_basis(g: int) -> Ints:
+    """A canonical basis in terms of the curves c_0, …, c_{2g−1}."""
+    intersections = np.eye(2 * g, k=1, dtype=np.int64) - np.eye(2 * g, k=-1, dtype=np.int64)
+    return integer_symplectic_basis(intersections).astype(np.int64)
 
 
 def _families(genus: int) -> Iterator[NamedSurface]:
@@ -86,36 +93,42 @@ def _binomial(n: int) -> NamedSurface:
         genus,
         "periods are powers of roots of unity; Bujalance, Costa, Gamboa, Riera (2000)",
         lambda: binomial_period_matrix(n),
+        lambda: exact.binomial(n, _binomial_basis(genus)),
     )
 
 
 def _lawson(m: int, k: int) -> NamedSurface:
-    def exact() -> Complexes:
+    def in_floats() -> Complexes:
         from .lawson.periods import lawson_period_matrix
 
         return lawson_period_matrix(m, k)
 
+    def in_balls() -> flint.acb_mat:
+        from .lawson.periods import lawson_period_matrix_in_balls
+
+        return lawson_period_matrix_in_balls(m, k)
+
     curve = f"y^{k + 1} = (x^{m + 1} - 1)/(x^{m + 1} + 1)"
     source = "periods as beta and hypergeometric functions; Lawson (1970) for the surface"
-    return NamedSurface(f"Lawson xi_{{{m},{k}}}", (curve,), m * k, source, exact)
+    return NamedSurface(f"Lawson xi_{{{m},{k}}}", (curve,), m * k, source, in_floats, in_balls)
 
 
 def _square_tiled(name: str) -> Callable[[], Complexes]:
-    def exact() -> Complexes:
+    def in_floats() -> Complexes:
         from .square_tiled import square_tiled_period_matrix
 
         return square_tiled_period_matrix(name)
 
-    return exact
+    return in_floats
 
 
 def _regular_map(name: str) -> Callable[[], Complexes]:
-    def exact() -> Complexes:
+    def in_floats() -> Complexes:
         from .regular_maps import regular_map_period_matrix
 
         return regular_map_period_matrix(name)
 
-    return exact
+    return in_floats
 
 
 def _wente() -> Complexes:
@@ -131,6 +144,7 @@ _SINGLE = (
         1,
         "tau = i",
         lambda: np.array([[1j]]),
+        exact.square_torus,
     ),
     NamedSurface(
         "hexagonal torus",
@@ -138,6 +152,7 @@ _SINGLE = (
         1,
         "tau = exp(i pi/3)",
         lambda: np.array([[0.5 + 0.5j * np.sqrt(3)]]),
+        exact.hexagonal_torus,
     ),
     NamedSurface(
         "Wente torus",
@@ -152,6 +167,7 @@ _SINGLE = (
         2,
         "Bobenko, Mercat, Schmies, section 4.1, after Silhol",
         _square_tiled("omega_1"),
+        exact.omega_1,
     ),
     NamedSurface(
         "Bolza curve",
@@ -159,6 +175,7 @@ _SINGLE = (
         2,
         "Bobenko, Mercat, Schmies, section 4.1, after Silhol; Bolza (1887)",
         _square_tiled("omega_2"),
+        exact.bolza,
     ),
     NamedSurface(
         "Klein quartic",
@@ -166,6 +183,7 @@ _SINGLE = (
         3,
         "Braden, Northover (2010)",
         _regular_map("klein"),
+        exact.klein,
     ),
     NamedSurface(
         "Fermat quartic",
@@ -173,6 +191,7 @@ _SINGLE = (
         3,
         "Gaussian multiples of K(1/sqrt 2)/2; recognised in the periods of abelfunctions",
         _regular_map("fermat"),
+        exact.fermat,
     ),
     NamedSurface(
         "Schwarz P surface",
@@ -187,5 +206,6 @@ _SINGLE = (
         4,
         "Braden, Northover (2012), after Riera, Rodriguez (1992)",
         _regular_map("bring"),
+        exact.bring,
     ),
 )

@@ -5,8 +5,8 @@ from flint import arb, arb_mat
 
 import igl_periods as ip
 from igl_periods.enclosures.siegel_point import siegel_ball, symplectic_mean
-from igl_periods.symplectic import energy_matrix, siegel_point, williamson
 from igl_periods.siegel import cholesky
+from igl_periods.symplectic import energy_matrix, siegel_point, williamson
 
 
 def random_energies(g, seed, excess):

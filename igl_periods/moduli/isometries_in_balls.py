@@ -94,7 +94,8 @@ def short_vectors_in_balls(G: flint.arb_mat, bound: flint.arb) -> Ints:
             low = _integer(((-known - radius) / column[j]).lower().ceil())
             high = _integer(((-known + radius) / column[j]).upper().floor())
             for value in range(low, high + 1):
-                rest = (room - (column[j] * value + known) ** 2).upper()
+                part = column[j] * value + known
+                rest = (room - part * part).upper()
                 if rest < 0:
                     continue
                 longer = [*x[:j], value, *x[j + 1 :]]
