@@ -30,6 +30,7 @@ from igl_periods.siegel import SIEGEL_GENUS_LIMIT, check_symplectic, siegel_redu
 from igl_periods.symplectic import form_action, product
 
 from .exact_arithmetic import (
+    ball_digits,
     ball_from_text,
     ball_in_text,
     from_integers,
@@ -136,6 +137,10 @@ class PeriodEnclosure:
         changed = PeriodEnclosure(D, cocycles, self.complex, self.bits)
         _ = changed.bound
         return changed
+
+    def to_flint(self) -> flint.acb_mat:
+        """The same as ``matrix``, under the name that it has of a :class:`PeriodMatrix`."""
+        return self.matrix
 
     def contains(self, Pi: ArrayLike | flint.acb_mat) -> bool:
         """Whether all entries of a matrix lie in the balls of ``matrix``, in the same marking.
@@ -304,8 +309,5 @@ def _in_latex(z: flint.acb, digits: int) -> str:
 
 
 def _known_digits(x: flint.arb, digits: int) -> str:
-    text = str(x.str(digits + 20, radius=False))
-    mantissa, _, exponent = text.partition("e")
-    if not mantissa.strip("-0."):
-        return "0"
+    mantissa, _, exponent = ball_digits(x, digits + 20).partition("e")
     return f"{mantissa} \\cdot 10^{{{int(exponent)}}}" if exponent else mantissa

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -30,6 +31,16 @@ def surface_and_lengths(
         return K, distances(_all_rows(positions, K), K)
     K = as_complex(positions.astype(np.float64), F)
     return K, lengths_of(K) if K.mollification > 0.0 else distances(positions, K)
+
+
+def with_exact_distances(K: DeltaComplex) -> DeltaComplex:
+    """A complex whose lengths are the exact distances of its vertices, where they have positions.
+
+    One that carries exact lengths, or whose lengths had to be changed, stays as it is.
+    """
+    if K.positions is None or K.exact_lengths is not None or K.mollification > 0.0:
+        return K
+    return replace(K, exact_lengths=distances(_all_rows(K.positions, K), K))
 
 
 def _exact_positions(V: Any) -> NDArray[Any] | None:
