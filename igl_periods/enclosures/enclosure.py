@@ -25,12 +25,18 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
 from igl_periods.complexes import DeltaComplex
+from igl_periods.display import (
+    ball_digits,
+    ball_matrix_lines,
+    facts_html,
+    lines_html,
+    readable_digits,
+)
 from igl_periods.periods import LEAST_ALLOWANCE, PeriodMatrix, combined, congruence
 from igl_periods.siegel import SIEGEL_GENUS_LIMIT, check_symplectic, siegel_reduce
 from igl_periods.symplectic import form_action, product
 
 from .exact_arithmetic import (
-    ball_digits,
     ball_from_text,
     ball_in_text,
     from_integers,
@@ -246,9 +252,15 @@ class PeriodEnclosure:
 
     def __repr__(self) -> str:
         text = f"PeriodEnclosure of genus {self.genus}, {self.digits} digits proved"
-        if self.genus == 0:
-            return text
-        return f"{text}\n{self.matrix.str(min(self.digits, 20))}"
+        return "\n".join([text, *(f"  {row}" for row in self._rows())])
+
+    def _repr_html_(self) -> str:
+        facts = [("genus", self.genus), ("proved digits", self.digits)]
+        matrix = [lines_html("the matrix", self._rows())] if self.genus else []
+        return facts_html("Period matrix in balls", facts, *matrix)
+
+    def _rows(self) -> list[str]:
+        return ball_matrix_lines(self.matrix, min(self.digits, readable_digits(self.genus)))
 
     def _repr_latex_(self) -> str:
         rows = [

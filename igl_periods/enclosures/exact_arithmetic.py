@@ -32,17 +32,3 @@ def ball_in_text(x: Arb, digits: int) -> str:
 def ball_from_text(text: str) -> Arb:
     """A ball that contains all that such a text denotes."""
     return Arb(text)
-
-
-def ball_digits(x: Arb, digits: int) -> str:
-    """The digits of a real number that its ball determines, at most so many; 0 if there are none.
-
-    The last one is off by 1 at most.
-
-    Examples
-    --------
-    >>> ball_digits(Arb(3).sqrt() / 2, 10), ball_digits(Arb(0, 1e-30), 10)
-    ('0.8660254038', '0')
-    """
-    text = str(x.str(max(digits, 1), radius=False))
-    return text if text.partition("e")[0].strip("-0.") else "0"

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import textwrap
 
-import flint
-
 from igl_periods.complexes import DeltaComplex
-from igl_periods.display import LARGEST_SHOWN
-from igl_periods.enclosures import PeriodEnclosure, ball_digits
+from igl_periods.display import LARGEST_SHOWN, ball_matrix_lines
+from igl_periods.enclosures import PeriodEnclosure
 
 _WIDTH = 92
 
@@ -35,7 +33,7 @@ def enclosure_summary(enclosed: PeriodEnclosure, wanted: int) -> str:
     return "\n".join(
         [
             f"Period matrix Π of genus {enclosed.genus}, Siegel reduced:",
-            _indented(ball_matrix_lines(enclosed.matrix, min(wanted, enclosed.digits))),
+            _indented(_rows(enclosed, min(wanted, enclosed.digits))),
             "What is proved:",
             _indented(textwrap.wrap(proved, _WIDTH)),
             "Which surface is meant:",
@@ -66,22 +64,11 @@ def lengths_in_words(K: DeltaComplex) -> str:
     )
 
 
-def ball_matrix_lines(matrix: flint.acb_mat, digits: int) -> list[str]:
-    """Rows of a complex matrix with at most so many digits, and none that is not known."""
-    if matrix.nrows() > LARGEST_SHOWN:
-        return [f"{matrix.nrows()} × {matrix.nrows()} entries; --json prints all of them"]
-    rows = [[_entry(z, digits) for z in row] for row in matrix.tolist()]
-    width = max(len(text) for row in rows for text in row)
-    return ["   ".join(text.rjust(width) for text in row).rstrip() for row in rows]
-
-
-def _entry(z: flint.acb, digits: int) -> str:
-    real, imag = ball_digits(z.real, digits), ball_digits(z.imag, digits)
-    if imag == "0":
-        return real
-    if real == "0":
-        return f"{imag} i"
-    return f"{real} {'-' if imag.startswith('-') else '+'} {imag.removeprefix('-')} i"
+def _rows(enclosed: PeriodEnclosure, digits: int) -> list[str]:
+    g = enclosed.genus
+    if g > LARGEST_SHOWN:
+        return [f"{g} × {g} entries; --json prints all of them"]
+    return ball_matrix_lines(enclosed.matrix, digits)
 
 
 def _indented(lines: list[str]) -> str:

@@ -35,7 +35,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Complexes, Ints
-from igl_periods.display import facts_html, integer_lines, lines_html, matrix_html, matrix_lines
+from igl_periods.display import (
+    ball_matrix_lines,
+    facts_html,
+    integer_lines,
+    lines_html,
+    matrix_html,
+    matrix_lines,
+    readable_digits,
+)
 from igl_periods.symplectic import energy_matrix, form_action, product
 
 from .action import moebius
@@ -61,7 +69,6 @@ SIEGEL_GENUS_LIMIT = 1000
 _HASTY_STEPS = 100
 # Times that the midpoint of balls is rounded and reduced.
 _MOST_ROUNDINGS = 8
-_DIGITS_SHOWN = 20
 # Rows up to which γ is shown in a notebook.
 _GAMMA_SHOWN = 16
 
@@ -108,8 +115,17 @@ class EnclosedReduction(NamedTuple):
 
     def __repr__(self) -> str:
         size = len(self.gamma)
-        matrix = f"\n{self.matrix.str(_DIGITS_SHOWN)}" if size else ""
-        return f"EnclosedReduction by γ ({size} × {size}) to{matrix}"
+        rows = [f"  {row}" for row in self._rows()]
+        return "\n".join([f"EnclosedReduction by γ ({size} × {size}) to", *rows])
+
+    def _repr_html_(self) -> str:
+        gamma = self.gamma if len(self.gamma) <= _GAMMA_SHOWN else self.gamma[:0]
+        parts = [lines_html("the matrix", self._rows())] if len(self.gamma) else []
+        parts += [lines_html("γ", integer_lines(gamma))] if gamma.size else []
+        return facts_html("Siegel reduction", [("genus", len(self.gamma) // 2)], *parts)
+
+    def _rows(self) -> list[str]:
+        return ball_matrix_lines(self.matrix, readable_digits(len(self.gamma) // 2))
 
 
 @overload

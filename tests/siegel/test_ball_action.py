@@ -1,5 +1,7 @@
 """The action on balls contains the action on points; energies; reduction."""
 
+import re
+
 import flint
 import numpy as np
 import pytest
@@ -81,7 +83,7 @@ def test_what_is_known_in_balls():
     assert bits_of(Enclosed(balls, 500)) == 500
     assert ip.to_flint(Enclosed(balls, 100)) is balls
     text = repr(ip.siegel_reduce(balls))
-    assert text.startswith("EnclosedReduction by γ (2 × 2) to\n[[0.2500000000000000000 +/-")
+    assert re.fullmatch(r"EnclosedReduction by γ \(2 × 2\) to\n  0\.250+ \+ 1\.0+ i", text)
 
 
 def test_distance_has_all_digits_of_the_balls():
