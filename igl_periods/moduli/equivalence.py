@@ -43,6 +43,7 @@ from numpy.typing import ArrayLike
 from igl_periods.arrays import Complexes, Floats, Ints
 from igl_periods.display import facts_html, integer_lines, lines_html
 from igl_periods.errors import EnumerationLimitError
+from igl_periods.options import checked_integer, checked_number, checked_switch
 from igl_periods.siegel import (
     PointInBalls,
     balls_of,
@@ -86,7 +87,7 @@ class Isomorphisms(list[Ints]):
         many digits, relative to √(Y_ii Y_jj); that is proved where the matrices are certified.
     complete : bool
         Whether the search came to its end: neither the limit that was asked for nor the work
-        limit stopped it.
+        limit stopped it.  Nothing follows from what is not in an incomplete list.
     gave_up : str
         Which work limit stopped the search; empty if none did.
     """
@@ -95,7 +96,7 @@ class Isomorphisms(list[Ints]):
         super().__init__()
         self.tolerance = tolerance
         self.certified = certified
-        self.complete = True
+        self.complete = False
         self.gave_up = ""
         self.in_balls = False
         self.digits: int | None = None
@@ -122,6 +123,8 @@ class Isomorphisms(list[Ints]):
             if self.in_balls:
                 return f"{self._agreement()}{stopped}"
             return f"{len(self)} transformations within {self.tolerance:.3g}{stopped}"
+        if not self.complete:
+            return "undecided: the search was stopped before it found a transformation"
         if self.certified and self.in_balls:
             return "proved in balls: the two surfaces are not conformally equivalent"
         if self.certified:
@@ -176,7 +179,8 @@ def symplectic_isomorphisms(
         If an argument is no point of the Siegel upper half-space.
     ValueError
         If the genera differ, the tolerance is not positive or too large to separate anything, or
-        there is no tolerance: an uncertified PeriodMatrix has none.
+        there is no tolerance: an uncertified PeriodMatrix has none.  If an option has no such
+        value.
 
     Examples
     --------
@@ -184,6 +188,7 @@ def symplectic_isomorphisms(
     [[[0, 1], [-1, 0]], [[0, -1], [1, 0]]]
     """
     genus = len(check_same_genus(Pi1, Pi2)[0])
+    limit, reversing = _checked_limit(limit), checked_switch("reversing", reversing)
     if tolerance is None and in_balls(Pi1, Pi2):
         found = _found_in_balls(reduced_balls(Pi1), reduced_balls(Pi2), reversing, limit)
     else:
@@ -227,7 +232,7 @@ def moduli_distance(
     0.002002
     """
     found = symplectic_isomorphisms(Pi1, Pi2, tolerance)
-    if found.gave_up:
+    if not found.complete:
         raise EnumerationLimitError(found.gave_up)
     logarithms = logarithms_found(found, Pi1, Pi2)
     return float(np.linalg.norm(logarithms, axis=1).min(initial=math.inf))
@@ -251,15 +256,25 @@ def _checked_tolerance(Pi1: Any, Pi2: Any, tolerance: float | None) -> tuple[flo
     if tolerance is None:
         t = sum(_log_bound(Pi) for Pi in (Pi1, Pi2)) + float(np.finfo(np.float64).eps)
     else:
-        t = float(tolerance)
+        t = checked_number("the tolerance", tolerance)
     if not t > 0:
         raise ValueError(f"the tolerance must be a positive number, not {tolerance}")
     if t >= LARGEST_TOLERANCE:
         raise ValueError(
-            f"a tolerance of {t:.3g} is too large to separate anything: it must be less than "
-            "log 2 = 0.693. Where it comes from certificates, refine the mesh or raise the degree."
+            f"a tolerance of {t!r} is too large to separate anything: it must be less than "
+            f"log 2 = {LARGEST_TOLERANCE!r}. Where it comes from certificates, refine the mesh "
+            "or raise the degree."
         )
     return t, certified
+
+
+def _checked_limit(limit: int | None) -> int | None:
+    if limit is None:
+        return None
+    number = checked_integer("limit", limit)
+    if number < 0:
+        raise ValueError(f"limit = {number}: a number of transformations is not negative.")
+    return number
 
 
 def _log_bound(Pi: Any) -> float:
@@ -282,6 +297,7 @@ def _search(pair: tuple[Any, Any], found: Isomorphisms, reversing: bool, limit: 
     (point1, gamma1), (point2, gamma2) = (_reduced_point(Pi) for Pi in pair)
     if len(point1) == 0:
         found.append(np.zeros((0, 0), dtype=np.int64))
+        found.complete = True
         return
     if reversing:
         # γ · Π = Π' implies (K γ K) · (−Π̄) = −Π̄', K = diag(1, −1).
@@ -305,7 +321,7 @@ def _found_in_balls(
     found.in_balls = True
     if one.genus == 0:
         found.append(np.zeros((0, 0), dtype=np.int64))
-        found.digits = 0
+        found.complete, found.digits = True, 0
         return found
     bits = max(one.bits, two.bits)
     with flint.ctx.workprec(bits):
@@ -324,8 +340,9 @@ def _collect(
     try:
         for U in candidates:
             if limit is not None and len(found) >= limit:
-                found.complete = False
                 return
             found.append(product(back, product(form_action(U).astype(np.int64), gamma1)))
     except EnumerationLimitError as error:
-        found.complete, found.gave_up = False, str(error)
+        found.gave_up = str(error)
+    else:
+        found.complete = True

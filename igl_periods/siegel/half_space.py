@@ -17,7 +17,7 @@ Siegel, "Symplectic geometry" (1943).
 
 from __future__ import annotations
 
-from typing import overload
+from typing import Any, overload
 
 import flint
 import numpy as np
@@ -25,6 +25,7 @@ from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Complexes, Floats, Ints
 from igl_periods.errors import NotASiegelPointError
+from igl_periods.options import in_words
 from igl_periods.symplectic import is_symplectic
 
 from .action import moebius
@@ -32,6 +33,7 @@ from .enclosed_points import PointInBalls, balls_of, bits_of, in_marking, midpoi
 
 # Entries may differ from their mirror image by this much, relative to the largest entry.
 _ASYMMETRY = 1e-8
+_LARGEST_ENTRY = int(np.iinfo(np.int64).max)
 
 
 def check_siegel_point(Pi: ArrayLike | PointInBalls) -> Complexes:
@@ -50,8 +52,7 @@ def check_siegel_point(Pi: ArrayLike | PointInBalls) -> Complexes:
         not positive definite.
     """
     balls = balls_of(Pi)
-    given = np.asarray(Pi) if balls is None else midpoint(balls)
-    matrix = np.array(given, dtype=np.complex128)
+    matrix = _complex_array(Pi if balls is None else midpoint(balls))
     if matrix.ndim != 2 or matrix.shape[0] != matrix.shape[1]:
         raise NotASiegelPointError(f"a period matrix is square, but this has shape {matrix.shape}")
     if not np.isfinite(matrix).all():
@@ -64,6 +65,17 @@ def check_siegel_point(Pi: ArrayLike | PointInBalls) -> Complexes:
         _check_symmetry(matrix)
         _check_positivity(matrix.imag)
     return 0.5 * (matrix + matrix.T)
+
+
+def _complex_array(Pi: Any) -> Complexes:
+    try:
+        given = np.asarray(Pi)
+        if given.dtype.kind in "biufcO":
+            return np.array(given, dtype=np.complex128)
+    except (TypeError, ValueError):
+        given = np.empty(0, dtype=object)
+    what = in_words(Pi) if given.dtype.kind == "O" else f"an array of {given.dtype}"
+    raise NotASiegelPointError(f"a period matrix is an array of complex numbers, not {what}")
 
 
 def _check_symmetry(matrix: Complexes) -> None:
@@ -124,7 +136,8 @@ def siegel_transform(gamma: ArrayLike, Pi: ArrayLike | PointInBalls) -> Complexe
     Raises
     ------
     ValueError
-        If γ is not integer, has another size than Π asks for, or is not symplectic (exactly).
+        If γ is not integer, has entries beyond 64 bits or another size than Π asks for, or is not
+        symplectic (exactly).
     NotASiegelPointError
         If Π is no point of the Siegel upper half-space.
 
@@ -147,15 +160,25 @@ def check_symplectic(gamma: ArrayLike, g: int) -> Ints:
         raise ValueError(
             f"a modular transformation in genus {g} has shape {(2 * g, 2 * g)}, not {given.shape}"
         )
-    matrix = given.astype(np.int64)
-    if not np.array_equal(matrix, given):
+    if given.dtype.kind not in "biufO" or not all(_is_integral(x) for x in given.ravel().tolist()):
         raise ValueError("a modular transformation has integer entries, this matrix has others")
+    largest = max((abs(int(x)) for x in given.ravel().tolist()), default=0)
+    if largest > _LARGEST_ENTRY:
+        raise ValueError(
+            f"a modular transformation has entries up to 2^63 - 1 here, and this has {largest}. "
+            "Apply it in steps, or reduce the matrix first (siegel_reduce)."
+        )
+    matrix = given.astype(np.int64)
     if not is_symplectic(matrix):
         raise ValueError(
             "the matrix is not symplectic: γ J γᵀ differs from J = [[0, 1], [-1, 0]]. (Matrices "
             "that act on forms or cycles in another order are other conjugates of γ.)"
         )
     return matrix
+
+
+def _is_integral(x: Any) -> bool:
+    return isinstance(x, int) or (isinstance(x, float) and x.is_integer())
 
 
 def siegel_distance(Pi1: ArrayLike | PointInBalls, Pi2: ArrayLike | PointInBalls) -> float:

@@ -44,6 +44,7 @@ from igl_periods.display import (
     matrix_lines,
     readable_digits,
 )
+from igl_periods.options import checked_number
 from igl_periods.symplectic import energy_matrix, form_action, product
 
 from .action import moebius
@@ -222,7 +223,7 @@ def _reduced_balls(Pi: Any) -> EnclosedReduction:
 
 def _check_genus(genus: int, max_genus: int) -> None:
     """Raise ValueError if a genus is too large for Siegel reduction."""
-    if genus > max_genus:
+    if not genus <= checked_number("max_genus", max_genus):
         raise ValueError(
             f"Siegel reduction is done up to genus {max_genus} unless asked for, and this matrix "
             f"has genus {genus}: the time grows like g³, to a minute and more above genus "

@@ -34,7 +34,7 @@ import flint
 import numpy as np
 from numpy.typing import ArrayLike
 
-from igl_periods.arrays import Ints
+from igl_periods.arrays import Ints, ReadOnlyArrays
 from igl_periods.complexes import SurfaceLike, as_complex, is_array_like
 from igl_periods.display import facts_html
 from igl_periods.moduli import (
@@ -45,6 +45,7 @@ from igl_periods.moduli import (
     reduced_balls,
     symplectic_isomorphisms,
 )
+from igl_periods.options import checked_number
 from igl_periods.siegel import PointInBalls, balls_of, bits_of, check_siegel_point
 
 from .named_surface import NamedSurface
@@ -59,7 +60,7 @@ _DIGITS_PER_BIT, _MORE_DIGITS = math.log10(2.0), 10
 
 
 @dataclass(frozen=True, eq=False)
-class Match:
+class Match(ReadOnlyArrays):
     r"""A named surface near a period matrix Π.
 
     Attributes
@@ -201,14 +202,16 @@ def identify(Pi: Any, F: Any = None, tolerance: float | None = None) -> Identifi
     if F is not None or not (is_array_like(Pi) or balls_of(Pi) is not None):
         Pi = matrix_of(as_complex(Pi, F))
     matrix = check_siegel_point(Pi)
-    if tolerance is not None and not tolerance >= 0:
-        raise ValueError(f"the tolerance must not be negative, but it is {tolerance}")
+    if tolerance is not None:
+        tolerance = checked_number("the tolerance", tolerance)
+        if not tolerance >= 0:
+            raise ValueError(f"the tolerance must not be negative, but it is {tolerance}")
     known = _Knowledge.of(Pi, tolerance)
     surfaces = catalogue(len(matrix))
     matches, undecided = [], []
     for surface in surfaces:
         found = symplectic_isomorphisms(Pi, surface.matrix, known.radius)
-        if found.gave_up:
+        if not found.complete:
             undecided.append(surface.name)
         elif found:
             matches.append(_nearest(Pi, surface, found, known))
@@ -264,7 +267,7 @@ class _Knowledge:
 
     def claim_in_balls(self, distance: float, deviation: float, found: Isomorphisms) -> str:
         """The same, where Π and the exact matrix were compared in balls."""
-        if found.gave_up:
+        if not found.complete:
             judged = f"undecided in balls, the search was given up ({found.gave_up})"
         elif found:
             judged = f"consistent to {found.digits} digits, in balls; this does not prove it"

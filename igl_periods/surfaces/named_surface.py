@@ -9,8 +9,9 @@ from functools import cached_property
 
 import flint
 
-from igl_periods.arrays import Complexes
+from igl_periods.arrays import Complexes, ReadOnlyArrays
 from igl_periods.display import facts_html, matrix_html
+from igl_periods.options import checked_integer
 from igl_periods.siegel import check_siegel_point
 
 _BITS_PER_DIGIT = math.log2(10.0)
@@ -18,7 +19,7 @@ _LEAST_BITS, _GUARD_BITS = 64, 32
 
 
 @dataclass(frozen=True, eq=False)
-class NamedSurface:
+class NamedSurface(ReadOnlyArrays):
     """A Riemann surface with an exact period matrix.
 
     Attributes
@@ -69,7 +70,7 @@ class NamedSurface:
         Raises
         ------
         ValueError
-            If ``digits`` is less than 1.
+            If ``digits`` is no integer, or less than 1.
 
         Examples
         --------
@@ -77,6 +78,7 @@ class NamedSurface:
         >>> print(catalogue(1)[1].matrix_in_balls(20)[0, 0].imag.str(18, radius=False))
         0.866025403784438647
         """
+        digits = checked_integer("digits", digits)
         if digits < 1:
             raise ValueError(f"digits = {digits}: at least one is wanted.")
         if self._balls is None:
