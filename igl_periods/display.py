@@ -18,6 +18,7 @@ from dataclasses import fields
 from html import escape
 from typing import Any
 
+import flint
 import numpy as np
 from numpy.typing import NDArray
 
@@ -29,6 +30,8 @@ _CORNER = 4
 # Where nothing is known about the error.
 _PLAIN_DECIMALS = 6
 _EPS = 2.0**-52
+# Characters in a line that numbers may take.
+_LINE = 140
 
 
 def counted(count: int, one: str, many: str) -> str:
@@ -98,6 +101,44 @@ def complex_parts(z: complex, bound: float | None) -> tuple[str, str, str]:
     if re == "0":
         return "", "", f"{im} i"
     return re, "-" if im.startswith("-") else "+", f"{im.removeprefix('-')} i"
+
+
+def ball_digits(x: flint.arb, digits: int) -> str:
+    """The digits of a real number that its ball determines, at most so many; 0 if there are none.
+
+    The last one is off by 1 at most.
+
+    Examples
+    --------
+    >>> ball_digits(flint.arb(3).sqrt() / 2, 10), ball_digits(flint.arb(0, 1e-30), 10)
+    ('0.8660254038', '0')
+    """
+    text = str(x.str(max(digits, 1), radius=False))
+    return text if text.partition("e")[0].strip("-0.") else "0"
+
+
+def ball_matrix_lines(matrix: flint.acb_mat, digits: int) -> list[str]:
+    """Rows of a complex matrix with at most so many digits, and none that is not known."""
+    g = matrix.nrows()
+    if g > LARGEST_SHOWN:
+        return [f"{g} × {g} entries, in balls"]
+    rows = [[_ball_entry(z, digits) for z in row] for row in matrix.tolist()] if g else []
+    width = max((len(text) for row in rows for text in row), default=0)
+    return ["   ".join(text.rjust(width) for text in row) for row in rows]
+
+
+def readable_digits(g: int) -> int:
+    """How many digits of the entries of a (g, g) matrix a line has room for."""
+    return max(3, min(20, _LINE // (2 * max(g, 1)) - 6))
+
+
+def _ball_entry(z: flint.acb, digits: int) -> str:
+    real, imag = ball_digits(z.real, digits), ball_digits(z.imag, digits)
+    if imag == "0":
+        return real
+    if real == "0":
+        return f"{imag} i"
+    return f"{real} {'-' if imag.startswith('-') else '+'} {imag.removeprefix('-')} i"
 
 
 def matrix_lines(matrix: NDArray[Any], bounds: Floats | None) -> list[str]:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import argparse
 
-from igl_periods.periods import period_matrix
+from igl_periods.complexes import DeltaComplex
+from igl_periods.enclosures import PeriodEnclosure, enclose, with_exact_distances
+from igl_periods.periods import PeriodMatrix, period_matrix
 from igl_periods.run_log import stage
 from igl_periods.surfaces import identify
 
@@ -35,6 +37,13 @@ def add_identify(commands: Commands) -> None:
         metavar="D",
         help="how far the mesh may be from the surface that it samples (a Siegel distance)",
     )
+    recognise.add_argument(
+        "--digits",
+        type=int,
+        metavar="N",
+        help="enclose the matrix in balls with so many proved digits, and compare in balls; "
+        "--degree, --tolerance and their like play no part",
+    )
     recognise.set_defaults(run=_identify)
 
 
@@ -42,8 +51,15 @@ def _identify(options: argparse.Namespace) -> int:
     surfaces, report = read_surfaces(options)
     say(mesh_in_words(options, report))
     for k, K in enumerate(surfaces):
-        pm = period_matrix(K, **chosen_options(options))
+        pm = _known(K, options)
         with stage("comparing"):
             found = identify(pm, tolerance=options.mesh_error)
         say(f"{heading(k, len(surfaces))}\n{found}")
     return 0
+
+
+def _known(K: DeltaComplex, options: argparse.Namespace) -> PeriodMatrix | PeriodEnclosure:
+    """The period matrix as it is to be known: with a certificate, or in balls."""
+    if options.digits is None:
+        return period_matrix(K, **chosen_options(options))
+    return enclose(with_exact_distances(K), digits=options.digits)

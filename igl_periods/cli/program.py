@@ -17,6 +17,7 @@ from igl_periods.errors import MissingExtraError, PeriodsError
 from .batch import add_batch
 from .compute import add_compute
 from .demo import add_demo
+from .enclose import add_enclose
 from .identify import add_identify
 from .render import add_render
 from .report import add_report
@@ -28,6 +29,7 @@ from .view import add_view
 _COMMANDS = (
     add_demo,
     add_compute,
+    add_enclose,
     add_identify,
     add_render,
     add_view,

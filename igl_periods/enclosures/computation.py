@@ -210,6 +210,11 @@ def _best_enclosure(
             goal, size = _larger(cells, solution, goal, final, 0.5 * expected + margin)
             reason = limits.exceeded_by(cells, size)
             if not reason:
+                logger.info(
+                    "next: degrees up to %d, about %.2g s",
+                    size.max(),
+                    limits.expected_seconds(size),
+                )
                 continue
         try:
             found = prove(closest)
@@ -301,10 +306,14 @@ class _Limits:
         self.last = time.perf_counter() - before, float(size.sum())
         return solution
 
+    def expected_seconds(self, size: Ints) -> float:
+        """How long a solution with these numbers of functions will take, by the last one."""
+        seconds, unknowns = self.last
+        return seconds * (float(size.sum()) / unknowns) ** _COST_EXPONENT
+
     def exceeded_by(self, cells: Cells, size: Ints) -> str:
         """Why a solution with these numbers of functions is not to be begun; empty if it may."""
-        seconds, unknowns = self.last
-        expected = seconds * (float(size.sum()) / unknowns) ** _COST_EXPONENT
+        expected = self.expected_seconds(size)
         elapsed = time.perf_counter() - self.start
         # The proof takes about as long as the solution.
         if self.max_seconds is not None and elapsed + 2.0 * expected > self.max_seconds:

@@ -25,6 +25,13 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
 from igl_periods.complexes import DeltaComplex
+from igl_periods.display import (
+    ball_digits,
+    ball_matrix_lines,
+    facts_html,
+    lines_html,
+    readable_digits,
+)
 from igl_periods.periods import LEAST_ALLOWANCE, PeriodMatrix, combined, congruence
 from igl_periods.siegel import SIEGEL_GENUS_LIMIT, check_symplectic, siegel_reduce
 from igl_periods.symplectic import form_action, product
@@ -137,6 +144,10 @@ class PeriodEnclosure:
         changed = PeriodEnclosure(D, cocycles, self.complex, self.bits)
         _ = changed.bound
         return changed
+
+    def to_flint(self) -> flint.acb_mat:
+        """The same as ``matrix``, under the name that it has of a :class:`PeriodMatrix`."""
+        return self.matrix
 
     def contains(self, Pi: ArrayLike | flint.acb_mat) -> bool:
         """Whether all entries of a matrix lie in the balls of ``matrix``, in the same marking.
@@ -261,9 +272,15 @@ class PeriodEnclosure:
 
     def __repr__(self) -> str:
         text = f"PeriodEnclosure of genus {self.genus}, {self.digits} digits proved"
-        if self.genus == 0:
-            return text
-        return f"{text}\n{self.matrix.str(min(self.digits, 20))}"
+        return "\n".join([text, *(f"  {row}" for row in self._rows())])
+
+    def _repr_html_(self) -> str:
+        facts = [("genus", self.genus), ("proved digits", self.digits)]
+        matrix = [lines_html("the matrix", self._rows())] if self.genus else []
+        return facts_html("Period matrix in balls", facts, *matrix)
+
+    def _rows(self) -> list[str]:
+        return ball_matrix_lines(self.matrix, min(self.digits, readable_digits(self.genus)))
 
     def _repr_latex_(self) -> str:
         rows = [
@@ -324,8 +341,5 @@ def _in_latex(z: flint.acb, digits: int) -> str:
 
 
 def _known_digits(x: flint.arb, digits: int) -> str:
-    text = str(x.str(digits + 20, radius=False))
-    mantissa, _, exponent = text.partition("e")
-    if not mantissa.strip("-0."):
-        return "0"
+    mantissa, _, exponent = ball_digits(x, digits + 20).partition("e")
     return f"{mantissa} \\cdot 10^{{{int(exponent)}}}" if exponent else mantissa

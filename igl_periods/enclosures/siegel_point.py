@@ -26,6 +26,7 @@ import flint
 import numpy as np
 
 from igl_periods.errors import ComplexError
+from igl_periods.siegel import cholesky
 from igl_periods.symplectic import standard_form
 
 Arb = flint.arb
@@ -128,22 +129,6 @@ def normalised(D: ArbMat, X: ArbMat, Y: ArbMat) -> ArbMat | None:
     P = ArbMat([[*left, *right] for left, right in (*upper, *lower)])
     M = P * D * P.transpose()
     return (M + M.transpose()) / 2
-
-
-def cholesky(A: ArbMat) -> ArbMat | None:
-    """The lower triangular L with A = L Lᵀ, in balls; None if A is not certainly definite."""
-    n = A.nrows()
-    L = [[Arb(0)] * n for _ in range(n)]
-    for i in range(n):
-        for j in range(i + 1):
-            rest = A[i, j] - sum((x * y for x, y in zip(L[i][:j], L[j][:j])), Arb(0))
-            if i > j:
-                L[i][j] = rest / L[j][j]
-            elif rest > 0:
-                L[i][i] = rest.sqrt()
-            else:
-                return None
-    return ArbMat(L)
 
 
 def _largest_excess(M: ArbMat) -> Arb:

@@ -37,6 +37,16 @@ def surface_and_lengths(
     return replace(K, exact_lengths=exact), exact
 
 
+def with_exact_distances(K: DeltaComplex) -> DeltaComplex:
+    """A complex whose lengths are the exact distances of its vertices, where they have positions.
+
+    One that carries exact lengths, or whose lengths had to be changed, stays as it is.
+    """
+    if K.positions is None or K.exact_lengths is not None or K.mollification > 0.0:
+        return K
+    return replace(K, exact_lengths=distances(_all_rows(K.positions, K), K))
+
+
 def _exact_positions(V: Any) -> NDArray[Any] | None:
     """Positions that floating point would round: integers and fractions; otherwise None."""
     array = np.asarray(V)

@@ -13,15 +13,17 @@ are the automorphisms, a finite group that contains −1.
 Invariants need no search: Klein's j for genus 1, Rosenhain's roots and the invariants of Igusa and
 Clebsch for genus 2, vanishing theta constants for genus 3.
 
-======================  =======================================================================
-``lattice_isometries``  integer isometries of quadratic forms, to within a tolerance
-``equivalence``         γ with γ·Π₁ = Π₂
-``automorphisms``       the group of γ with γ·Π = Π
-``theta``               theta constants, and hyperellipticity
-``genus_one``           Klein's j
-``genus_two``           roots and invariants of the curve of genus 2
-``quadratic_numbers``   entries that look like quadratic irrationals
-======================  =======================================================================
+=======================  ======================================================================
+``lattice_isometries``   integer isometries of quadratic forms, to within a tolerance
+``isometries_in_balls``  the same where the forms are known in balls, without a tolerance
+``balls_in_comparison``  what is compared there
+``equivalence``          γ with γ·Π₁ = Π₂
+``automorphisms``        the group of γ with γ·Π = Π
+``theta``                theta constants, and hyperellipticity
+``genus_one``            Klein's j
+``genus_two``            roots and invariants of the curve of genus 2
+``quadratic_numbers``    entries that look like quadratic irrationals
+=======================  ======================================================================
 
 References
 ----------
@@ -37,6 +39,8 @@ from .equivalence import (
     moduli_distance,
     symplectic_isomorphisms,
 )
+from .balls_in_comparison import reduced_balls
+from .isometries_in_balls import ball_isometries
 from .automorphisms import SymplecticGroup, symplectic_automorphism_group
 from .theta import is_hyperelliptic, theta_constants, vanishing_even_characteristics
 from .genus_two import absolute_igusa_invariants, igusa_clebsch_invariants, rosenhain_roots
@@ -45,6 +49,8 @@ from .quadratic_numbers import QuadraticGuess, recognise_entries, recognise_quad
 from .lattice_isometries import isometries
 
 __all__ = [
+    "reduced_balls",
+    "ball_isometries",
     "ARRAY_TOLERANCE",
     "Isomorphisms",
     "LARGEST_TOLERANCE",

@@ -29,6 +29,7 @@ from numpy.typing import ArrayLike
 from igl_periods.arrays import Ints
 from igl_periods.display import facts_html
 from igl_periods.errors import EnumerationLimitError
+from igl_periods.siegel import PointInBalls
 
 from .equivalence import Isomorphisms, symplectic_isomorphisms
 from .theta import is_hyperelliptic
@@ -133,15 +134,18 @@ class SymplecticGroup(Sequence[Ints]):
         return chosen
 
 
-def symplectic_automorphism_group(Pi: ArrayLike, tolerance: float | None = None) -> SymplecticGroup:
+def symplectic_automorphism_group(
+    Pi: ArrayLike | PointInBalls, tolerance: float | None = None
+) -> SymplecticGroup:
     """Find all γ in Sp(2g, Z) with γ · Π = Π, and the symmetries that reverse the orientation.
 
     Parameters
     ----------
-    Pi : (g, g) array-like or PeriodMatrix
+    Pi : (g, g) array-like, PeriodMatrix, PeriodEnclosure or acb_mat
     tolerance : float, optional
         As in :func:`~igl_periods.symplectic_isomorphisms`.  If it comes from a
-        certificate, all symmetries of the polyhedral surface are among the elements.
+        certificate, or Π is known in balls, all symmetries of the polyhedral surface are among
+        the elements.
 
     Raises
     ------

@@ -10,13 +10,13 @@ Serre, "A course in arithmetic" (1973), chapter VII.
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Protocol, overload
 
 import flint
 import numpy as np
 from numpy.typing import ArrayLike
 
-from igl_periods.siegel import PRECISION
+from igl_periods.siegel import PRECISION, PointInBalls, balls_of, bits_of, siegel_reduce
 
 from .theta import of_genus
 
@@ -28,8 +28,21 @@ class SiegelBalls(Protocol):
         """The balls."""
 
 
-def j_invariant(Pi: ArrayLike) -> complex:
+@overload
+def j_invariant(Pi: PointInBalls) -> flint.acb: ...
+@overload
+def j_invariant(Pi: ArrayLike) -> complex: ...
+def j_invariant(Pi: ArrayLike | PointInBalls) -> complex | flint.acb:
     """Klein's j of a surface of genus 1, j(i) = 1728 and j(e^{2πi/3}) = 0.
+
+    Parameters
+    ----------
+    Pi : (1, 1) array-like, PeriodMatrix, PeriodEnclosure or acb_mat
+
+    Returns
+    -------
+    complex, or acb
+        Of a point that is known in balls: a ball that contains j.
 
     Raises
     ------
@@ -42,6 +55,9 @@ def j_invariant(Pi: ArrayLike) -> complex:
     287496
     """
     matrix = of_genus(Pi, 1)
+    if balls_of(Pi) is not None:
+        with flint.ctx.workprec(bits_of(Pi)):
+            return siegel_reduce(Pi).matrix[0, 0].modular_j()
     with flint.ctx.workprec(PRECISION):
         return complex(flint.acb(complex(matrix[0, 0])).modular_j())
 

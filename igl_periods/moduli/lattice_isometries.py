@@ -26,6 +26,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 import scipy.linalg
@@ -61,17 +62,18 @@ def isometries(G1: Floats, G2: Floats, tolerance: float) -> Iterator[Ints]:
         If there are too many short vectors, or too many partial maps had to be tried.
     """
     J = standard_form(len(G1) // 2)
-    V1, V2 = _reduced_basis(G1), _reduced_basis(G2)
+    V1, V2 = reduced_basis(G1), reduced_basis(G2)
     G1, G2 = V1 @ G1 @ V1.T, V2 @ G2 @ V2.T
     c = math.exp(tolerance) * (1 + _rounding(G1) + _rounding(G2))
     problem = _Problem(G1, G2, V1 @ J @ V1.T, V2 @ J @ V2.T, c)
     back = unimodular_inverse(V2)
-    for W in _assignments(problem):
+    for W in assignments(problem):
         if _between(W @ G1 @ W.T, G2, c):
             yield product(back, product(W, V1))
 
 
-def _reduced_basis(G: Floats) -> Ints:
+def reduced_basis(G: Floats) -> Ints:
+    """An LLL-reduced basis of the lattice with the form G, as rows."""
     try:
         return lll_basis(G)
     except NotPositiveDefiniteError as error:
@@ -90,6 +92,16 @@ def _rounding(G: Floats) -> float:
 def _between(G: Floats, target: Floats, c: float) -> bool:
     eigenvalues = scipy.linalg.eigh(G, target, eigvals_only=True)
     return bool(eigenvalues[0] * c >= 1 and eigenvalues[-1] <= c)
+
+
+class PairingProblem(Protocol):
+    """What may be the image of a basis vector, and which images fit together."""
+
+    def images(self) -> list[Ints]:
+        """For each basis vector of the second lattice, its possible images in the first."""
+
+    def fitting(self, k: int, image: Ints) -> Callable[[int, Ints], Bools]:
+        """The test whether candidates for row j pair with the image of row k as they should."""
 
 
 @dataclass(frozen=True)
@@ -121,7 +133,7 @@ class _Problem:
         return fits
 
 
-def _assignments(problem: _Problem) -> Iterator[Ints]:
+def assignments(problem: PairingProblem) -> Iterator[Ints]:
     """All W whose rows are images of the basis vectors with the right pairings, by backtracking."""
     images = problem.images()
     order = sorted(range(len(images)), key=lambda k: len(images[k]))

@@ -25,17 +25,20 @@ Glass, "Theta constants of genus three" (1980).
 from __future__ import annotations
 
 from itertools import product
-from typing import Any
+from typing import Any, overload
 
 import flint
 import numpy as np
 from numpy.typing import ArrayLike
 
-from igl_periods.arrays import Complexes, Floats
+from igl_periods.arrays import Complexes
 from igl_periods.siegel import (
     ARRAY_ERROR,
     PRECISION,
+    PointInBalls,
     ball_matrix,
+    balls_of,
+    bits_of,
     check_siegel_point,
     siegel_reduce,
 )
@@ -43,17 +46,22 @@ from igl_periods.siegel import (
 Characteristic = tuple[tuple[int, ...], tuple[int, ...]]
 
 
-def theta_constants(Pi: ArrayLike) -> Complexes:
+@overload
+def theta_constants(Pi: PointInBalls) -> flint.acb_mat: ...
+@overload
+def theta_constants(Pi: ArrayLike) -> Complexes: ...
+def theta_constants(Pi: ArrayLike | PointInBalls) -> Complexes | flint.acb_mat:
     """The theta constants of all characteristics; shape (2^g, 2^g).
 
     Parameters
     ----------
-    Pi : (g, g) array-like or PeriodMatrix
+    Pi : (g, g) array-like, PeriodMatrix, PeriodEnclosure or acb_mat
 
     Returns
     -------
-    (2^g, 2^g) complex
-        Entry [a, b], with the digits of a and b read as binary numbers, a_1 the leading digit.
+    (2^g, 2^g) complex, or acb_mat
+        Entry [a, b], with the digits of a and b read as binary numbers, a_1 the leading digit.  Of
+        a point that is known in balls: balls that contain them.
 
     Raises
     ------
@@ -66,17 +74,24 @@ def theta_constants(Pi: ArrayLike) -> Complexes:
     [[1.086435, 0.913579], [0.913579, 0.0]]
     """
     matrix = check_siegel_point(Pi)
-    values = [complex(z) for z in _theta(ball_matrix(matrix, np.zeros(matrix.shape)))]
-    return np.array(values).reshape(2 ** len(matrix), -1)
+    size = 2 ** len(matrix)
+    balls = balls_of(Pi)
+    if balls is not None:
+        return flint.acb_mat(size, size, _theta(balls, bits_of(Pi)))
+    values = [complex(z) for z in _theta(ball_matrix(matrix, np.zeros(matrix.shape)), PRECISION)]
+    return np.array(values).reshape(size, -1)
 
 
-def vanishing_even_characteristics(Pi: ArrayLike) -> list[Characteristic] | None:
+def vanishing_even_characteristics(
+    Pi: ArrayLike | PointInBalls,
+) -> list[Characteristic] | None:
     """The even characteristics (a, b) with a theta constant that may vanish, after reduction.
 
     Parameters
     ----------
-    Pi : (g, g) array-like or PeriodMatrix
-        Its error is that of the certificate; a plain array is taken to be right to 1e-8.
+    Pi : (g, g) array-like, PeriodMatrix, PeriodEnclosure or acb_mat
+        Its error is that of the certificate, or of the balls; a plain array is taken to be right
+        to 1e-8.
 
     Returns
     -------
@@ -91,11 +106,11 @@ def vanishing_even_characteristics(Pi: ArrayLike) -> list[Characteristic] | None
     ValueError
         If Π is a ``PeriodMatrix`` without a certificate.
     """
-    matrix, error = _reduced_with_error(Pi)
-    values = _theta(ball_matrix(matrix, error))
+    reduced = _reduced_in_balls(Pi)
+    values = _theta(reduced, bits_of(reduced if balls_of(Pi) is None else Pi))
     if not all(z.is_finite() for z in values):
         return None
-    digits = list(product((0, 1), repeat=len(matrix)))
+    digits = list(product((0, 1), repeat=reduced.nrows()))
     even = [np.dot(a, b) % 2 == 0 for a, b in product(digits, digits)]
     return [
         characteristic
@@ -104,13 +119,14 @@ def vanishing_even_characteristics(Pi: ArrayLike) -> list[Characteristic] | None
     ]
 
 
-def is_hyperelliptic(Pi: ArrayLike) -> bool | None:
+def is_hyperelliptic(Pi: ArrayLike | PointInBalls) -> bool | None:
     """Whether the surface is hyperelliptic, as far as Π tells here.
 
     Surfaces of genus 1 and 2 are.  One of genus 3 is iff an even theta constant vanishes: False
     is proved for all matrices within the error of Π, True means that one of the 36 may vanish and
-    the others certainly do not, so that Π is as close as its error to a hyperelliptic one.  None
-    where several may vanish: the error is too large, or this is a product.  None beyond genus 3.
+    the others certainly do not, so that Π is as close as its error (to all digits, in balls) to a
+    hyperelliptic one.  None where several may vanish: the error is too large, or this is a product.
+    None beyond genus 3.
 
     Raises
     ------
@@ -124,7 +140,7 @@ def is_hyperelliptic(Pi: ArrayLike) -> bool | None:
     return None if vanishing is None or len(vanishing) > 1 else bool(vanishing)
 
 
-def of_genus(Pi: ArrayLike, genus: int) -> Complexes:
+def of_genus(Pi: ArrayLike | PointInBalls, genus: int) -> Complexes:
     """Π, checked to be a Siegel point of this genus; ValueError otherwise."""
     matrix = check_siegel_point(Pi)
     if len(matrix) != genus:
@@ -132,21 +148,23 @@ def of_genus(Pi: ArrayLike, genus: int) -> Complexes:
     return matrix
 
 
-def _reduced_with_error(Pi: Any) -> tuple[Complexes, Floats]:
-    """The reduced matrix, and by how much each entry may be wrong."""
+def _reduced_in_balls(Pi: Any) -> flint.acb_mat:
+    """The reduced matrix, with what is known about its error."""
+    if balls_of(Pi) is not None:
+        return siegel_reduce(Pi).matrix
     if hasattr(Pi, "reduced"):
         reduced = Pi.reduced()
         if reduced.entry_bounds is None:
             raise ValueError("a period matrix without a certificate: take its array, pm.matrix")
-        return reduced.matrix, reduced.entry_bounds
+        return ball_matrix(reduced.matrix, reduced.entry_bounds)
     matrix = siegel_reduce(Pi).matrix
     scale = np.sqrt(np.diag(matrix.imag))
-    return matrix, ARRAY_ERROR * np.outer(scale, scale)
+    return ball_matrix(matrix, ARRAY_ERROR * np.outer(scale, scale))
 
 
-def _theta(Pi: flint.acb_mat) -> list[flint.acb]:
+def _theta(Pi: flint.acb_mat, bits: int) -> list[flint.acb]:
     """All theta constants of a ball matrix, a before b in binary order."""
     if Pi.nrows() == 0:
         return [flint.acb(1)]
-    with flint.ctx.workprec(PRECISION):
+    with flint.ctx.workprec(bits):
         return list(Pi.theta(flint.acb_mat(Pi.nrows(), 1)).entries())

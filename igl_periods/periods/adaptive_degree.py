@@ -46,6 +46,7 @@ from .certificate import Method
 from .marking import marked_faces
 from .matrix import PeriodMatrix
 from .memory_estimates import high_order_memory, room_for_forms
+from .rounding import LEAST_ALLOWANCE
 
 HIGHEST_DEGREE = 20
 # The ratio r of the bounds of successive degrees, before it is measured.
@@ -54,6 +55,11 @@ _LEAST_RATIO = 1.05
 # Each round of division treats faces with this part of the excess, and divides the bound by 2.
 _MARKED = 0.8
 _ROUND_RATIO = 2.0
+# Said of tolerances that no computation in double precision meets.
+_BEYOND = (
+    " Double precision stops at about 1e-13; igl_periods.enclose (igl-periods enclose) proves any "
+    "number of digits."
+)
 
 
 class ToleranceWarning(UserWarning):
@@ -157,7 +163,8 @@ def period_matrix_within(
         outcome = _carried_out(plan, method, tolerance) if isinstance(plan, Plan) else plan
         if isinstance(outcome, str):
             warnings.warn(
-                f"the bound is {best.bound:.2g}, not {tolerance:.2g} as wanted: {outcome}.",
+                f"the bound is {best.bound:.2g}, not {tolerance:.2g} as wanted: {outcome}."
+                f"{_BEYOND if tolerance < LEAST_ALLOWANCE else ''}",
                 ToleranceWarning,
                 stacklevel=3,
             )

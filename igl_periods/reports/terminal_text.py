@@ -15,6 +15,7 @@ from igl_periods.siegel import SIEGEL_GENUS_LIMIT
 from .words import bound_in_words
 
 _WIDTH = 92
+SPHERE = "The surface is a sphere (genus 0): its period matrix is empty, there are no periods."
 LARGEST_PRINTED = LARGEST_SHOWN  # genus up to which matrices are printed
 
 
@@ -29,9 +30,7 @@ def summary(pm: PeriodMatrix, reduced: PeriodMatrix | None, gamma: NDArray[np.in
         The transformation between them, or None.
     """
     if pm.genus == 0:
-        return (
-            "The surface is a sphere (genus 0): its period matrix is empty, there are no periods."
-        )
+        return SPHERE
     shown = pm if reduced is None else reduced
     parts = [
         f"Period matrix Π of genus {pm.genus}, {_marking_in_words(pm, reduced)}:",

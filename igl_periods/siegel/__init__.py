@@ -15,7 +15,9 @@ reduced matrices of one surface may differ, and are never compared entry by entr
 ====================  =========================================================================
 ``half_space``        what is a Siegel point; distance
 ``action``            γ·Π, accurately
+``enclosed_points``   points that are known in balls
 ``balls``             Π in ball arithmetic
+``ball_action``       γ·Π and energies in balls
 ``lll``               lattice reduction in integers; large lattices in floating point
 ``lll_in_floats``     the latter
 ``reducing_pairs``    pairwise reduction of a whole canonical basis
@@ -30,6 +32,16 @@ Siegel, "Symplectic geometry" (1943).
 Deconinck, Heil, Bobenko, van Hoeij, Schmies, "Computing Riemann theta functions" (2004).
 """
 
+from .ball_action import cholesky, energy_balls, moved_balls
+from .enclosed_points import (
+    PRECISION,
+    EnclosedPoint,
+    PointInBalls,
+    balls_of,
+    bits_of,
+    in_marking,
+    midpoint,
+)
 from .half_space import (
     check_same_genus,
     check_siegel_point,
@@ -38,12 +50,22 @@ from .half_space import (
     siegel_distance,
     siegel_transform,
 )
-from .balls import ARRAY_ERROR, PRECISION, ball_matrix, to_flint
+from .balls import ARRAY_ERROR, ball_matrix, to_flint
 from .lll import lll_basis
 from .enumeration import short_vectors
-from .reduction import SIEGEL_GENUS_LIMIT, SiegelReduction, siegel_reduce
+from .reduction import SIEGEL_GENUS_LIMIT, EnclosedReduction, SiegelReduction, siegel_reduce
 
 __all__ = [
+    "EnclosedPoint",
+    "PointInBalls",
+    "balls_of",
+    "bits_of",
+    "in_marking",
+    "midpoint",
+    "cholesky",
+    "energy_balls",
+    "moved_balls",
+    "EnclosedReduction",
     "check_same_genus",
     "check_siegel_point",
     "check_symplectic",

@@ -8,21 +8,21 @@ from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Complexes, Floats
 
+from .enclosed_points import PointInBalls, balls_of
 from .half_space import check_siegel_point
 
-PRECISION = 96
 # What a plain array is taken to be right to, relative to √(Y_ii Y_jj).
 ARRAY_ERROR = 1e-8
 
 
-def to_flint(Pi: ArrayLike) -> flint.acb_mat:
+def to_flint(Pi: ArrayLike | PointInBalls) -> flint.acb_mat:
     """The period matrix as a matrix of complex balls, for python-flint.
 
     Parameters
     ----------
-    Pi : (g, g) array-like or PeriodMatrix
-        The balls of a ``PeriodMatrix`` with a certificate contain the period matrix of the
-        polyhedral surface; those of an array are points.
+    Pi : (g, g) array-like, PeriodMatrix or PeriodEnclosure
+        The balls of a ``PeriodMatrix`` with a certificate, and those of a ``PeriodEnclosure``,
+        contain the period matrix of the polyhedral surface; those of an array are points.
 
     Raises
     ------
@@ -30,6 +30,9 @@ def to_flint(Pi: ArrayLike) -> flint.acb_mat:
         If Π is no point of the Siegel upper half-space.
     """
     matrix = check_siegel_point(Pi)
+    balls = balls_of(Pi)
+    if balls is not None:
+        return balls
     bounds = getattr(Pi, "entry_bounds", None)
     return ball_matrix(matrix, np.zeros(matrix.shape) if bounds is None else bounds)
 

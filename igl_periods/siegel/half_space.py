@@ -17,8 +17,9 @@ Siegel, "Symplectic geometry" (1943).
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, overload
 
+import flint
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -28,19 +29,21 @@ from igl_periods.options import in_words
 from igl_periods.symplectic import is_symplectic
 
 from .action import moebius
+from .enclosed_points import PointInBalls, balls_of, bits_of, in_marking, midpoint
 
 # Entries may differ from their mirror image by this much, relative to the largest entry.
 _ASYMMETRY = 1e-8
 _LARGEST_ENTRY = int(np.iinfo(np.int64).max)
 
 
-def check_siegel_point(Pi: ArrayLike) -> Complexes:
+def check_siegel_point(Pi: ArrayLike | PointInBalls) -> Complexes:
     """Return Π as a symmetric complex array, or raise if it is no point of the half-space.
 
     Parameters
     ----------
     Pi : (g, g) array-like
-        Or an object that ``numpy.asarray`` turns into one, such as a ``PeriodMatrix``.
+        Or an object that ``numpy.asarray`` turns into one, such as a ``PeriodMatrix``.  Of a
+        point that is known in balls the midpoints are taken.
 
     Raises
     ------
@@ -48,7 +51,8 @@ def check_siegel_point(Pi: ArrayLike) -> Complexes:
         If Π is not square, not finite, not symmetric (to 1e-8 of its largest entry), or Im Π is
         not positive definite.
     """
-    matrix = _complex_array(Pi)
+    balls = balls_of(Pi)
+    matrix = _complex_array(Pi if balls is None else midpoint(balls))
     if matrix.ndim != 2 or matrix.shape[0] != matrix.shape[1]:
         raise NotASiegelPointError(f"a period matrix is square, but this has shape {matrix.shape}")
     if not np.isfinite(matrix).all():
@@ -63,7 +67,7 @@ def check_siegel_point(Pi: ArrayLike) -> Complexes:
     return 0.5 * (matrix + matrix.T)
 
 
-def _complex_array(Pi: ArrayLike) -> Complexes:
+def _complex_array(Pi: Any) -> Complexes:
     try:
         given = np.asarray(Pi)
         if given.dtype.kind in "biufcO":
@@ -97,7 +101,9 @@ def _check_positivity(Y: Floats) -> None:
         ) from error
 
 
-def check_same_genus(Pi1: ArrayLike, Pi2: ArrayLike) -> tuple[Complexes, Complexes]:
+def check_same_genus(
+    Pi1: ArrayLike | PointInBalls, Pi2: ArrayLike | PointInBalls
+) -> tuple[Complexes, Complexes]:
     """Both matrices, checked; ValueError if their genera differ."""
     one, two = check_siegel_point(Pi1), check_siegel_point(Pi2)
     if len(one) != len(two):
@@ -105,7 +111,11 @@ def check_same_genus(Pi1: ArrayLike, Pi2: ArrayLike) -> tuple[Complexes, Complex
     return one, two
 
 
-def siegel_transform(gamma: ArrayLike, Pi: ArrayLike) -> Complexes:
+@overload
+def siegel_transform(gamma: ArrayLike, Pi: PointInBalls) -> flint.acb_mat: ...
+@overload
+def siegel_transform(gamma: ArrayLike, Pi: ArrayLike) -> Complexes: ...
+def siegel_transform(gamma: ArrayLike, Pi: ArrayLike | PointInBalls) -> Complexes | flint.acb_mat:
     """The Möbius action γ · Π = (a Π + b)(c Π + d)⁻¹ of Sp(2g, Z).
 
     Computed from the given floating-point Π with as many digits as it needs
@@ -115,12 +125,13 @@ def siegel_transform(gamma: ArrayLike, Pi: ArrayLike) -> Complexes:
     ----------
     gamma : (2g, 2g) array-like of int
         ``[[a, b], [c, d]]``, symplectic: γ J γᵀ = J.
-    Pi : (g, g) array-like or PeriodMatrix
+    Pi : (g, g) array-like, PeriodMatrix, PeriodEnclosure or acb_mat
 
     Returns
     -------
-    (g, g) complex
-        Symmetric, with positive definite imaginary part.
+    (g, g) complex, or acb_mat
+        Symmetric, with positive definite imaginary part.  Of a point that is known in balls: balls
+        that contain γ · Π for every Π in the given ones.
 
     Raises
     ------
@@ -136,7 +147,10 @@ def siegel_transform(gamma: ArrayLike, Pi: ArrayLike) -> Complexes:
     array([[0.+0.5j]])
     """
     point = check_siegel_point(Pi)
-    return moebius(check_symplectic(gamma, len(point)), point)
+    checked = check_symplectic(gamma, len(point))
+    if balls_of(Pi) is not None:
+        return in_marking(Pi, checked)
+    return moebius(checked, point)
 
 
 def check_symplectic(gamma: ArrayLike, g: int) -> Ints:
@@ -167,7 +181,7 @@ def _is_integral(x: Any) -> bool:
     return isinstance(x, int) or (isinstance(x, float) and x.is_integer())
 
 
-def siegel_distance(Pi1: ArrayLike, Pi2: ArrayLike) -> float:
+def siegel_distance(Pi1: ArrayLike | PointInBalls, Pi2: ArrayLike | PointInBalls) -> float:
     r"""Siegel's distance of two period matrices, invariant under Sp(2g, R).
 
     :math:`d^2 = \sum_{i \le g} \log^2 \lambda_i`, where λ_i ≥ 1 and 1/λ_i are the eigenvalues
@@ -178,7 +192,8 @@ def siegel_distance(Pi1: ArrayLike, Pi2: ArrayLike) -> float:
 
     Parameters
     ----------
-    Pi1, Pi2 : (g, g) array-like or PeriodMatrix
+    Pi1, Pi2 : (g, g) array-like, PeriodMatrix, PeriodEnclosure or acb_mat
+        Of what is known in balls: the midpoints, whose difference is taken before it is rounded.
 
     Raises
     ------
@@ -196,16 +211,17 @@ def siegel_distance(Pi1: ArrayLike, Pi2: ArrayLike) -> float:
     >>> round(siegel_distance([[1j]], [[2j]]), 12)  # log 2
     0.69314718056
     """
-    return float(np.linalg.norm(log_eigenvalues(*check_same_genus(Pi1, Pi2))))
+    return float(np.linalg.norm(log_eigenvalues(Pi1, Pi2)))
 
 
-def log_eigenvalues(one: Complexes, two: Complexes) -> Floats:
+def log_eigenvalues(Pi1: ArrayLike | PointInBalls, Pi2: ArrayLike | PointInBalls) -> Floats:
     """The log λ_i ≥ 0 of two points of the half-space, increasing; (g,).
 
     Computed as described in :func:`siegel_distance`.
     """
+    one, two = check_same_genus(Pi1, Pi2)
     L = np.linalg.cholesky(one.imag)
-    difference = np.linalg.solve(L, np.linalg.solve(L, two - one).T)
+    difference = np.linalg.solve(L, np.linalg.solve(L, _difference(Pi1, Pi2, one, two)).T)
     M = np.linalg.solve(L, np.linalg.cholesky(two.imag))
     denominator = np.linalg.inv(difference + 2j * np.eye(len(one)))
     # tanh and 1/cosh of half the logarithms; neither alone is accurate both near and far.
@@ -213,3 +229,14 @@ def log_eigenvalues(one: Complexes, two: Complexes) -> Floats:
     sech = np.linalg.svd(2 * M.T @ denominator, compute_uv=False)
     logarithms: Floats = 2 * np.arcsinh(tanh / sech[::-1])
     return logarithms[::-1]
+
+
+def _difference(
+    Pi1: ArrayLike | PointInBalls, Pi2: ArrayLike | PointInBalls, one: Complexes, two: Complexes
+) -> Complexes:
+    """Π₂ − Π₁; of midpoints of balls, where both have them, with all of their digits."""
+    balls = balls_of(Pi1), balls_of(Pi2)
+    if balls[0] is None or balls[1] is None:
+        return two - one
+    with flint.ctx.workprec(max(bits_of(Pi1), bits_of(Pi2))):
+        return midpoint(balls[1].mid() - balls[0].mid())

@@ -28,17 +28,27 @@ Deconinck, Heil, Bobenko, van Hoeij, Schmies, "Computing Riemann theta functions
 from __future__ import annotations
 
 import itertools
-from typing import NamedTuple
+from typing import Any, NamedTuple, overload
 
+import flint
 import numpy as np
 from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Complexes, Ints
-from igl_periods.display import facts_html, integer_lines, lines_html, matrix_html, matrix_lines
+from igl_periods.display import (
+    ball_matrix_lines,
+    facts_html,
+    integer_lines,
+    lines_html,
+    matrix_html,
+    matrix_lines,
+    readable_digits,
+)
 from igl_periods.options import checked_number
-from igl_periods.symplectic import energy_matrix, form_action
+from igl_periods.symplectic import energy_matrix, form_action, product
 
 from .action import moebius
+from .enclosed_points import PointInBalls, balls_of, in_marking, midpoint
 from .half_space import check_siegel_point
 from .reducing_pairs import pairwise_reduction
 from .reduction_steps import (
@@ -58,6 +68,8 @@ SIEGEL_GENUS_LIMIT = 1000
 # After so many steps (there are seldom ten) every single quasi-inversion starts from exact values,
 # so that det Y rises for certain.
 _HASTY_STEPS = 100
+# Times that the midpoint of balls is rounded and reduced.
+_MOST_ROUNDINGS = 8
 # Rows up to which γ is shown in a notebook.
 _GAMMA_SHOWN = 16
 
@@ -88,7 +100,44 @@ class SiegelReduction(NamedTuple):
         return facts_html("Siegel reduction", [("genus", len(self.matrix))], *parts)
 
 
-def siegel_reduce(Pi: ArrayLike, *, max_genus: int = SIEGEL_GENUS_LIMIT) -> SiegelReduction:
+class EnclosedReduction(NamedTuple):
+    """A reduced period matrix in balls, and the modular transformation that leads to it.
+
+    Attributes
+    ----------
+    matrix : (g, g) acb_mat
+        γ · Π for every Π in the given balls.
+    gamma : (2g, 2g) int
+        Integer symplectic, exactly.
+    """
+
+    matrix: flint.acb_mat
+    gamma: Ints
+
+    def __repr__(self) -> str:
+        size = len(self.gamma)
+        rows = [f"  {row}" for row in self._rows()]
+        return "\n".join([f"EnclosedReduction by γ ({size} × {size}) to", *rows])
+
+    def _repr_html_(self) -> str:
+        gamma = self.gamma if len(self.gamma) <= _GAMMA_SHOWN else self.gamma[:0]
+        parts = [lines_html("the matrix", self._rows())] if len(self.gamma) else []
+        parts += [lines_html("γ", integer_lines(gamma))] if gamma.size else []
+        return facts_html("Siegel reduction", [("genus", len(self.gamma) // 2)], *parts)
+
+    def _rows(self) -> list[str]:
+        return ball_matrix_lines(self.matrix, readable_digits(len(self.gamma) // 2))
+
+
+@overload
+def siegel_reduce(
+    Pi: PointInBalls, *, max_genus: int = SIEGEL_GENUS_LIMIT
+) -> EnclosedReduction: ...
+@overload
+def siegel_reduce(Pi: ArrayLike, *, max_genus: int = SIEGEL_GENUS_LIMIT) -> SiegelReduction: ...
+def siegel_reduce(
+    Pi: ArrayLike | PointInBalls, *, max_genus: int = SIEGEL_GENUS_LIMIT
+) -> SiegelReduction | EnclosedReduction:
     """Siegel reduction: a modular transformation γ to a matrix Π' = γ · Π with small entries.
 
     It promises |Re Π'| ≤ ½, Im Π' LLL-reduced (up to g = 8 with a shortest vector first), and
@@ -96,15 +145,16 @@ def siegel_reduce(Pi: ArrayLike, *, max_genus: int = SIEGEL_GENUS_LIMIT) -> Sieg
 
     Parameters
     ----------
-    Pi : (g, g) array-like or PeriodMatrix
+    Pi : (g, g) array-like, PeriodMatrix, PeriodEnclosure or acb_mat
         Symmetric, with positive definite imaginary part.
     max_genus : int
         The largest genus to try.  The time grows like g³: seconds at genus 600, a minute at 1300.
 
     Returns
     -------
-    SiegelReduction
-        ``(matrix, gamma)``.
+    SiegelReduction, or EnclosedReduction
+        ``(matrix, gamma)``.  Of a point that is known in balls the matrix is one of balls, and
+        reduced at its midpoint.
 
     Raises
     ------
@@ -126,8 +176,12 @@ def siegel_reduce(Pi: ArrayLike, *, max_genus: int = SIEGEL_GENUS_LIMIT) -> Sieg
     (array([[0.+2.j]]), [[2, -1], [1, 0]])
     """
     start = check_siegel_point(Pi)
+    _check_genus(len(start), max_genus)
+    return _reduced_point(start) if balls_of(Pi) is None else _reduced_balls(Pi)
+
+
+def _reduced_point(start: Complexes) -> SiegelReduction:
     g = len(start)
-    _check_genus(g, max_genus)
     small = g <= SMALL_GENUS
     point, gamma = start, np.eye(2 * g, dtype=np.int64)
     # At high genus a pairwise reduction comes first, and points are moved in floating point.
@@ -152,6 +206,19 @@ def siegel_reduce(Pi: ArrayLike, *, max_genus: int = SIEGEL_GENUS_LIMIT) -> Sieg
         elif n_idle == 2:
             point, exact, n_idle = moebius(gamma, start), True, 0
     raise AssertionError("unreachable: the walk along the orbit ends")
+
+
+def _reduced_balls(Pi: Any) -> EnclosedReduction:
+    """Reduce the midpoint, and again as long as its rounding has left something to reduce."""
+    balls, total = balls_of(Pi), np.eye(2 * len(check_siegel_point(Pi)), dtype=np.int64)
+    assert balls is not None
+    for _ in range(_MOST_ROUNDINGS):
+        gamma = _reduced_point(check_siegel_point(midpoint(balls))).gamma
+        if np.array_equal(gamma, np.eye(len(gamma))):
+            break
+        total = product(gamma, total)
+        balls = in_marking(Pi, total)
+    return EnclosedReduction(balls, total)
 
 
 def _check_genus(genus: int, max_genus: int) -> None:

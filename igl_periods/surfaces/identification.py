@@ -8,6 +8,10 @@ matrix with the certificate ``bound`` is known within the deviation t = log(1 + 
   be another one;
 * if one does, nothing is proved: close is not equal.
 
+Of a period matrix that is known in balls nothing is tolerated: it is compared in balls with exact
+matrices in balls, which have as many digits.  If they do not overlap, under any γ, that is a proof;
+if they do, they are consistent to a number of digits, and still not proved to be equal.
+
 A mesh of a smooth surface is another surface.  How far the two may be apart no period matrix tells;
 it has to be stated, as a deviation.
 
@@ -26,20 +30,23 @@ from functools import singledispatch
 from numbers import Real
 from typing import Any, overload
 
+import flint
 import numpy as np
 from numpy.typing import ArrayLike
 
-from igl_periods.arrays import Complexes, Ints, ReadOnlyArrays
+from igl_periods.arrays import Ints, ReadOnlyArrays
 from igl_periods.complexes import SurfaceLike, as_complex, is_array_like
 from igl_periods.display import facts_html
 from igl_periods.moduli import (
     ARRAY_TOLERANCE,
     LARGEST_TOLERANCE,
+    Isomorphisms,
     logarithms_found,
+    reduced_balls,
     symplectic_isomorphisms,
 )
 from igl_periods.options import checked_number
-from igl_periods.siegel import check_siegel_point
+from igl_periods.siegel import PointInBalls, balls_of, bits_of, check_siegel_point
 
 from .named_surface import NamedSurface
 from .named_surfaces import catalogue
@@ -48,6 +55,8 @@ from .named_surfaces import catalogue
 _NEIGHBOURHOOD = 0.1
 _LARGEST_RADIUS = 0.999 * LARGEST_TOLERANCE
 _EXACT_ERROR = 1e-12
+# Exact matrices are computed with so many digits more than Π has.
+_DIGITS_PER_BIT, _MORE_DIGITS = math.log10(2.0), 10
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,6 +74,8 @@ class Match(ReadOnlyArrays):
         γ · Π is close to ``surface.matrix``.
     claim : str
         What may be said, in words.
+    digits : int or None
+        Where Π is known in balls, and consistent with the surface: to how many digits.
     """
 
     surface: NamedSurface
@@ -72,6 +83,7 @@ class Match(ReadOnlyArrays):
     deviation: float
     gamma: Ints
     claim: str
+    digits: int | None = None
 
     def __repr__(self) -> str:
         return f"Match({self.surface.name}: {self.claim})"
@@ -143,7 +155,9 @@ def matrix_of(surface: Any) -> Any:
 
 
 @overload
-def identify(Pi: ArrayLike | SurfaceLike, *, tolerance: float | None = None) -> Identification: ...
+def identify(
+    Pi: ArrayLike | PointInBalls | SurfaceLike, *, tolerance: float | None = None
+) -> Identification: ...
 @overload
 def identify(Pi: ArrayLike | SurfaceLike, tolerance: float | None, /) -> Identification: ...
 @overload
@@ -156,10 +170,10 @@ def identify(Pi: Any, F: Any = None, tolerance: float | None = None) -> Identifi
 
     Parameters
     ----------
-    Pi : (g, g) array-like or PeriodMatrix, or surface
+    Pi : (g, g) array-like, PeriodMatrix, PeriodEnclosure or acb_mat, or surface
         With a certificate, Π is known within log(1 + bound); a plain array is taken to be right to
-        1e-8.  Of a surface (:func:`~igl_periods.complexes.as_complex`) the period matrix is
-        computed, of degree 1.
+        1e-8; balls are compared in balls.  Of a surface
+        (:func:`~igl_periods.complexes.as_complex`) the period matrix is computed, of degree 1.
     F : (m, 3) array-like of int, optional
         The triangles, where ``Pi`` is V.
     tolerance : float, optional
@@ -185,7 +199,7 @@ def identify(Pi: Any, F: Any = None, tolerance: float | None = None) -> Identifi
     """
     if tolerance is None and isinstance(F, Real):
         F, tolerance = None, F
-    if F is not None or not is_array_like(Pi):
+    if F is not None or not (is_array_like(Pi) or balls_of(Pi) is not None):
         Pi = matrix_of(as_complex(Pi, F))
     matrix = check_siegel_point(Pi)
     if tolerance is not None:
@@ -196,24 +210,34 @@ def identify(Pi: Any, F: Any = None, tolerance: float | None = None) -> Identifi
     surfaces = catalogue(len(matrix))
     matches, undecided = [], []
     for surface in surfaces:
-        found = symplectic_isomorphisms(matrix, surface.matrix, known.radius)
+        found = symplectic_isomorphisms(Pi, surface.matrix, known.radius)
         if not found.complete:
             undecided.append(surface.name)
         elif found:
-            matches.append(_nearest(matrix, surface, found, known))
+            matches.append(_nearest(Pi, surface, found, known))
     matches.sort(key=lambda match: match.distance)
     names = tuple(surface.name for surface in surfaces)
     return Identification(tuple(matches), len(matrix), names, tuple(undecided), known.radius)
 
 
-def _nearest(
-    matrix: Complexes, surface: NamedSurface, found: Sequence[Ints], known: _Knowledge
-) -> Match:
-    logarithms = logarithms_found(found, matrix, surface.matrix)
+def _nearest(Pi: Any, surface: NamedSurface, found: Sequence[Ints], known: _Knowledge) -> Match:
+    exact = _exact_balls(Pi, surface)
+    logarithms = logarithms_found(found, Pi, surface.matrix if exact is None else exact)
     distances = np.linalg.norm(logarithms, axis=1)
     nearest, distance = int(np.argmin(distances)), float(distances.min())
     deviation = float(np.max(logarithms, axis=1).min())
-    return Match(surface, distance, deviation, found[nearest], known.claim(distance, deviation))
+    if exact is None:
+        return Match(surface, distance, deviation, found[nearest], known.claim(distance, deviation))
+    in_balls = symplectic_isomorphisms(Pi, exact)
+    claim = known.claim_in_balls(distance, deviation, in_balls)
+    return Match(surface, distance, deviation, found[nearest], claim, in_balls.digits)
+
+
+def _exact_balls(Pi: Any, surface: NamedSurface) -> flint.acb_mat | None:
+    """The exact matrix with more digits than Π has, if Π is known in balls and there is one."""
+    if balls_of(Pi) is None:
+        return None
+    return surface.matrix_in_balls(int(bits_of(Pi) * _DIGITS_PER_BIT) + _MORE_DIGITS)
 
 
 @dataclass(frozen=True)
@@ -228,8 +252,11 @@ class _Knowledge:
     @classmethod
     def of(cls, Pi: ArrayLike, mesh: float | None) -> _Knowledge:
         own: float | None = ARRAY_TOLERANCE
-        certified = getattr(Pi, "bound", None) is not None
-        if hasattr(Pi, "bound"):
+        certified = balls_of(Pi) is not None or getattr(Pi, "bound", None) is not None
+        if balls_of(Pi) is not None:
+            reduced = reduced_balls(Pi)
+            own = math.log1p(reduced.genus * reduced.relative_radius()) + _EXACT_ERROR
+        elif hasattr(Pi, "bound"):
             own = math.log1p(Pi.bound) + _EXACT_ERROR if certified else None
         stated = (own or 0.0) + (mesh or 0.0)
         shown = min((own or 0.0) + _NEIGHBOURHOOD, _LARGEST_RADIUS)
@@ -238,11 +265,27 @@ class _Knowledge:
     def claim(self, distance: float, deviation: float) -> str:
         return f"within {distance:.2g}: {self._judgement(deviation)}"
 
+    def claim_in_balls(self, distance: float, deviation: float, found: Isomorphisms) -> str:
+        """The same, where Π and the exact matrix were compared in balls."""
+        if not found.complete:
+            judged = f"undecided in balls, the search was given up ({found.gave_up})"
+        elif found:
+            judged = f"consistent to {found.digits} digits, in balls; this does not prove it"
+        else:
+            judged = self._another(deviation, "in balls, the polyhedral surface is proved to be")
+        return f"within {distance:.2g}: {judged}"
+
     def _judgement(self, deviation: float) -> str:
         if self.own is not None and deviation <= self.own:
             what = "the certificate" if self.certified else "the accuracy of the array"
             return f"consistent with {what} ({self.own:.2g}); this does not prove it"
-        other = "the polyhedral surface is proved to be another one" if self.certified else ""
+        return self._another(
+            deviation, "the polyhedral surface is proved to be" if self.certified else ""
+        )
+
+    def _another(self, deviation: float, proved: str) -> str:
+        """What is said of a surface that Π is not consistent with."""
+        other = f"{proved} another one" if proved else ""
         if self.mesh is None:
             return other or "near; no error of the mesh is stated"
         consistent = deviation <= (self.own or 0.0) + self.mesh

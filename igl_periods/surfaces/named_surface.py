@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
+import flint
+
 from igl_periods.arrays import Complexes, ReadOnlyArrays
 from igl_periods.display import facts_html, matrix_html
+from igl_periods.options import checked_integer
 from igl_periods.siegel import check_siegel_point
+
+_BITS_PER_DIGIT = math.log2(10.0)
+_LEAST_BITS, _GUARD_BITS = 64, 32
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,6 +37,7 @@ class NamedSurface(ReadOnlyArrays):
     genus: int
     source: str
     _exact: Callable[[], Complexes]
+    _balls: Callable[[], flint.acb_mat] | None = None
 
     def __repr__(self) -> str:
         return f"NamedSurface({self.name}, genus {self.genus})"
@@ -45,3 +53,37 @@ class NamedSurface(ReadOnlyArrays):
         matrix = check_siegel_point(self._exact())
         matrix.flags.writeable = False
         return matrix
+
+    def matrix_in_balls(self, digits: int = 30) -> flint.acb_mat | None:
+        """Balls that contain the exact entries, in the marking of ``matrix``.
+
+        Parameters
+        ----------
+        digits : int
+            Decimal digits that are computed with; all but the last few are right.
+
+        Returns
+        -------
+        (g, g) acb_mat or None
+            None where there is no formula, and ``matrix`` is known in double precision only.
+
+        Raises
+        ------
+        ValueError
+            If ``digits`` is no integer, or less than 1.
+
+        Examples
+        --------
+        >>> from igl_periods import catalogue
+        >>> print(catalogue(1)[1].matrix_in_balls(20)[0, 0].imag.str(18, radius=False))
+        0.866025403784438647
+        """
+        digits = checked_integer("digits", digits)
+        if digits < 1:
+            raise ValueError(f"digits = {digits}: at least one is wanted.")
+        if self._balls is None:
+            return None
+        with flint.ctx.workprec(
+            max(_LEAST_BITS, math.ceil(digits * _BITS_PER_DIGIT) + _GUARD_BITS)
+        ):
+            return self._balls()

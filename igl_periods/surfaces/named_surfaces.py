@@ -23,12 +23,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
+import flint
 import numpy as np
 
-from igl_periods.arrays import Complexes
+from igl_periods.arrays import Complexes, Ints
 from igl_periods.options import checked_integer
 from igl_periods.symplectic import integer_symplectic_basis
 
+from . import exact_matrices as exact
 from .named_surface import NamedSurface
 
 _LARGEST_GENUS = 1_000_000
@@ -70,12 +72,22 @@ def binomial_period_matrix(n: int) -> Complexes:
     if n < 3:
         raise ValueError(f"y^2 = x^{n} - 1 is rational: take n >= 3")
     g = (n - 1) // 2
-    intersections = np.eye(2 * g, k=1, dtype=np.int64) - np.eye(2 * g, k=-1, dtype=np.int64)
     exponents = np.outer(np.arange(1, g + 1), np.arange(2 * g))
     periods = np.exp(2j * np.pi * (exponents % n) / n)
-    a, b = np.hsplit(periods @ integer_symplectic_basis(intersections).T, 2)
+    a, b = np.hsplit(periods @ _binomial_basis(g).T, 2)
     Pi = np.asarray(np.linalg.solve(a, b), dtype=np.complex128)
     return 0.5 * (Pi + Pi.T)
+
+
+def _binomial_basis(g: int) -> Ints:
+    """A canonical basis in terms of the curves c_0, …, c_{2g−1}."""
+    intersections = np.eye(2 * g, k=1, dtype=np.int64) - np.eye(2 * g, k=-1, dtype=np.int64)
+    return integer_symplectic_basis(intersections).astype(np.int64)
+
+
+def _binomial_balls(n: int) -> flint.acb_mat:
+    """The same as :func:`binomial_period_matrix` in balls."""
+    return exact.binomial(n, _binomial_basis((n - 1) // 2))
 
 
 def _families(genus: int) -> Iterator[NamedSurface]:
@@ -98,6 +110,7 @@ def _binomial(n: int) -> NamedSurface:
         genus,
         "periods are powers of roots of unity; Bujalance, Costa, Gamboa, Riera (2000)",
         partial(binomial_period_matrix, n),
+        partial(_binomial_balls, n),
     )
 
 
@@ -105,7 +118,12 @@ def _lawson(m: int, k: int) -> NamedSurface:
     curve = f"y^{k + 1} = (x^{m + 1} - 1)/(x^{m + 1} + 1)"
     source = "periods as beta and hypergeometric functions; Lawson (1970) for the surface"
     return NamedSurface(
-        f"Lawson xi_{{{m},{k}}}", (curve,), m * k, source, partial(_exact_lawson, m, k)
+        f"Lawson xi_{{{m},{k}}}",
+        (curve,),
+        m * k,
+        source,
+        partial(_exact_lawson, m, k),
+        partial(_lawson_balls, m, k),
     )
 
 
@@ -116,6 +134,12 @@ def _exact_lawson(m: int, k: int) -> Complexes:
     from .lawson.periods import lawson_period_matrix
 
     return lawson_period_matrix(m, k)
+
+
+def _lawson_balls(m: int, k: int) -> flint.acb_mat:
+    from .lawson.periods import lawson_period_matrix_in_balls
+
+    return lawson_period_matrix_in_balls(m, k)
 
 
 def _square_tiled(name: str) -> Complexes:
@@ -143,6 +167,7 @@ _SINGLE = (
         1,
         "tau = i",
         partial(np.array, [[1j]]),
+        exact.square_torus,
     ),
     NamedSurface(
         "hexagonal torus",
@@ -150,6 +175,7 @@ _SINGLE = (
         1,
         "tau = exp(i pi/3)",
         partial(np.array, [[0.5 + 0.5j * np.sqrt(3)]]),
+        exact.hexagonal_torus,
     ),
     NamedSurface(
         "Wente torus",
@@ -164,6 +190,7 @@ _SINGLE = (
         2,
         "Bobenko, Mercat, Schmies, section 4.1, after Silhol",
         partial(_square_tiled, "omega_1"),
+        exact.omega_1,
     ),
     NamedSurface(
         "Bolza curve",
@@ -171,6 +198,7 @@ _SINGLE = (
         2,
         "Bobenko, Mercat, Schmies, section 4.1, after Silhol; Bolza (1887)",
         partial(_square_tiled, "omega_2"),
+        exact.bolza,
     ),
     NamedSurface(
         "Klein quartic",
@@ -178,6 +206,7 @@ _SINGLE = (
         3,
         "Braden, Northover (2010)",
         partial(_regular_map, "klein"),
+        exact.klein,
     ),
     NamedSurface(
         "Fermat quartic",
@@ -185,6 +214,7 @@ _SINGLE = (
         3,
         "Gaussian multiples of K(1/sqrt 2)/2; recognised in the periods of abelfunctions",
         partial(_regular_map, "fermat"),
+        exact.fermat,
     ),
     NamedSurface(
         "Schwarz P surface",
@@ -199,5 +229,6 @@ _SINGLE = (
         4,
         "Braden, Northover (2012), after Riera, Rodriguez (1992)",
         partial(_regular_map, "bring"),
+        exact.bring,
     ),
 )

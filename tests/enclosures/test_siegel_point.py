@@ -4,7 +4,8 @@ import pytest
 from flint import arb, arb_mat
 
 import igl_periods as ip
-from igl_periods.enclosures.siegel_point import cholesky, siegel_ball, symplectic_mean
+from igl_periods.enclosures.siegel_point import siegel_ball, symplectic_mean
+from igl_periods.siegel import cholesky
 from igl_periods.symplectic import energy_matrix, siegel_point, williamson
 
 

@@ -37,6 +37,7 @@ def objects(tmp_path_factory):
     one_form = np.ones((2, graph.n_edges))
     report = ip.load_mesh(file, repair=True)[2]
     identified = ip.identify(genus_two)
+    enclosed = ip.enclose(square_tiled_surface("omega_1", n=2), digits=8)
     return {
         "PeriodMatrix": pm,
         "of genus 2": genus_two,
@@ -56,6 +57,9 @@ def objects(tmp_path_factory):
         "Refined": ip.refined_period_matrix(K, 0.02),
         "Extrapolation": ip.richardson(lambda n: torus_of_revolution(2.0, 1.0, n, n), (8, 12, 16)),
         "SiegelReduction": ip.siegel_reduce(pm),
+        "PeriodEnclosure": enclosed,
+        "EnclosedReduction": ip.siegel_reduce(enclosed),
+        "in balls": ip.symplectic_isomorphisms(enclosed, enclosed),
         "Isomorphisms": ip.symplectic_isomorphisms(genus_two, genus_two),
         "none": ip.symplectic_isomorphisms([[1j]], [[1.2j]]),
         "SymplecticGroup": ip.symplectic_automorphism_group(genus_two),

@@ -29,6 +29,9 @@ Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 4.3.
 
 from __future__ import annotations
 
+from fractions import Fraction
+
+import flint
 import numpy as np
 from scipy.sparse import coo_array, csr_array
 from scipy.special import beta, hyp2f1
@@ -36,6 +39,7 @@ from scipy.special import beta, hyp2f1
 from igl_periods.arrays import Complexes, Floats, Ints
 from igl_periods.complexes import DeltaComplex, half_edge_ends
 from igl_periods.errors import ComplexError
+from igl_periods.surfaces.exact_matrices import lawson_integral, root_of_unity, symmetrised
 from igl_periods.topology import cohomology_basis
 
 from .disc import check_orders
@@ -94,6 +98,47 @@ def lawson_period_matrix_in(
     A = _pairing(forms, integers[genus:], m, k)
     B = -_pairing(forms, integers[:genus], m, k)
     return np.asarray(np.linalg.solve(A, B), dtype=np.complex128)
+
+
+def lawson_period_matrix_in_balls(m: int, k: int) -> flint.acb_mat:
+    """The exact period matrix of ξ_{m,k} in balls, in the marking of :func:`lawson_period_matrix`.
+
+    Computed at the working precision, ``flint.ctx.prec``.
+
+    Raises
+    ------
+    MeshError
+        If m < 1 or k < 1.
+    """
+    check_orders(m, k)
+    genus, K = m * k, _crossed_discs(m, k)
+    integers = _along_sides(K, cohomology_basis(K), lawson_sides(m, k, 1))
+    # ∫ ω ∧ η is linear in the integrals of ω along the sides, with multiples of ½ as coefficients.
+    n_sides = 4 * (k + 1) * (m + 1)
+    units = np.eye(n_sides, dtype=np.complex128).reshape(n_sides, 2 * (k + 1), 2 * (m + 1))
+    coefficients = _pairing(units, integers, m, k).real
+    forms = flint.acb_mat(side_balls(m, k))
+    A = forms * flint.acb_mat(coefficients[:, genus:].tolist())
+    B = forms * flint.acb_mat((-coefficients[:, :genus]).tolist())
+    return symmetrised(A.solve(B))
+
+
+def side_balls(m: int, k: int) -> list[list[flint.acb]]:
+    """The same as :func:`side_integrals` in balls, a row for each form, sides in order."""
+    M, n = m + 1, k + 1
+
+    def side(a: int, b: int, i: int, j: int) -> flint.acb:
+        start, power = (a if i % 2 else M - a), (b if j % 2 == 0 else n - b)
+        size = lawson_integral(start, power, M, n)
+        turn = Fraction(i * b, 2 * n) - Fraction(j * a, 2 * M)
+        negative = i % 2 == 0 and j % 2 == 0
+        return root_of_unity(turn) * (-size if negative else size)
+
+    return [
+        [side(a, b, i, j) for i in range(2 * n) for j in range(2 * M)]
+        for a in range(1, M)
+        for b in range(1, n)
+    ]
 
 
 def side_integrals(m: int, k: int) -> Complexes:
