@@ -201,7 +201,12 @@ def _best_enclosure(
         with stage(f"series for jumps of 1e-{goal:.1f}"):
             solution = limits.timed(partial(_solution, cells, size, goal), size)
         expected = solution.expected_digits
-        logger.info("%d functions, about %.1f digits", size.sum(), expected)
+        logger.info(
+            "jumps of 1e%.1f with %d functions, about %.1f digits",
+            solution.residual,
+            size.sum(),
+            expected,
+        )
         stalled = closest is not None and expected <= closest.expected_digits
         closest = solution if not stalled else closest
         assert closest is not None
