@@ -60,6 +60,8 @@ _QUADRATURE_DIGITS = 8
 # So many digits, at most, are tried in double precision; radii of energies by which they would be
 # wrong are negligible if they are this much smaller.
 _DIGITS_IN_FLOATS, _NEGLIGIBLE = 13, 0.2
+# A proof that is worse than expected is tried again, so often in all.
+_MOST_PROOFS = 3
 _STALLED = "more trial functions do not help"
 _LOG_10 = float(np.log(10.0))
 # Triangles with a circumradius above so many shortest sides are divided.
@@ -196,6 +198,7 @@ def _best_enclosure(
     size = first_sizes(cells, goal)
     best: PeriodEnclosure | None = None
     closest: Refined | None = None
+    n_proofs = 0
     limits.check_memory(cells, size)
     while True:
         with stage(f"series for jumps of 1e-{goal:.1f}"):
@@ -220,7 +223,8 @@ def _best_enclosure(
         best = found if gained else best
         if proved >= digits:
             return best, ""
-        if reason or not gained:
+        n_proofs += 1
+        if reason or not gained or n_proofs == _MOST_PROOFS:
             return best, reason or _STALLED
         logger.info("%.2f digits proved", proved)
         final += 0.5 * (digits - proved + _RESERVE)
@@ -245,9 +249,7 @@ def _solution(cells: Cells, size: Ints, goal: float) -> Refined:
     return refined(problem, goal)
 
 
-def _energies(
-    surface: Triangulation, solution: Refined, basis: Ints, digits: int
-) -> flint.arb_mat:
+def _energies(surface: Triangulation, solution: Refined, basis: Ints, digits: int) -> flint.arb_mat:
     """Upper bounds of energies: in double precision where few digits are wanted."""
     accuracy = digits + _QUADRATURE_DIGITS
     if digits <= _DIGITS_IN_FLOATS:
