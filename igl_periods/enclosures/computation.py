@@ -54,7 +54,7 @@ MOST_DIGITS = 1000
 _GUARD_BITS = 48
 _MOST_BITS = 100_000
 # Digits beyond those that are wanted which series are made for, and with which a proof is tried.
-_RESERVE, _LEAST_RESERVE = 0.3, 0.0
+_RESERVE, _LEAST_RESERVE = 0.3, -0.2
 # Digits by which quadrature is to be more accurate than the result.
 _QUADRATURE_DIGITS = 8
 # So many digits, at most, are tried in double precision; radii of energies by which they would be

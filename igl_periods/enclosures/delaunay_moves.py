@@ -77,11 +77,11 @@ def fan(surface: Triangulation, corner: int) -> list[int]:
 def improve_shapes(surface: Triangulation, largest_ratio: float) -> int:
     """Put flat vertices into badly shaped triangles, and flip edges; in place.
 
-    A triangle is bad if its circumradius is larger than ``largest_ratio`` times the shortest edge at
-    any of its corners, half of which is the size of the star there: beside a small star only small
-    faces have series that converge fast.  It gets a vertex at its circumcentre, or where that lies outside close to the middle of its
-    longest side, which Delaunay flips then replace.  A small angle at a vertex of small total angle
-    is there to stay.
+    A triangle is bad if its circumradius is larger than ``largest_ratio`` times the shortest edge
+    at any of its corners, half of which is the size of the star there: beside a small star only
+    small faces have series that converge fast.  It gets a vertex at its circumcentre, or where that
+    lies outside close to the middle of its longest side, which Delaunay flips then replace.  A
+    small angle at a vertex of small total angle is there to stay.
 
     Returns
     -------

@@ -12,7 +12,7 @@ from flint import acb, acb_mat, arb, fmpq
 from support.enclosed_surfaces import generic_genus_two, l_shape, l_shape_matrix, matches
 
 import igl_periods as ip
-from igl_periods.complexes import by_kind, circumradius, double, root_of
+from igl_periods.complexes import by_kind, circumradius, root_of
 from igl_periods.enclosures import PeriodEnclosure, computation, enclose
 from igl_periods.surfaces import flat_torus
 from igl_periods.symplectic import integer_symplectic_basis
@@ -197,10 +197,10 @@ def _midpoints(K):
 
 
 @pytest.mark.filterwarnings("ignore::igl_periods.ToleranceWarning")
-@pytest.mark.parametrize("noise", [1e-6, 1e-3, 1e-1])
+@pytest.mark.parametrize("noise", [1e-6, 1e-3])
 def test_bad_solutions_stay_enclosed(monkeypatch, noise):
     K = generic_genus_two()
-    exact = enclose(K, digits=15)
+    exact = enclose(K, digits=30)
     rng = np.random.default_rng(7)
     solve = computation._solution
 
