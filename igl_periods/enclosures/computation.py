@@ -54,12 +54,14 @@ MOST_DIGITS = 1000
 _GUARD_BITS = 48
 _MOST_BITS = 100_000
 # Digits beyond those that are wanted which series are made for, and with which a proof is tried.
-_RESERVE, _LEAST_RESERVE = 0.3, 0.0
+_RESERVE, _LEAST_RESERVE = 0.3, -0.2
 # Digits by which quadrature is to be more accurate than the result.
 _QUADRATURE_DIGITS = 8
 # So many digits, at most, are tried in double precision; radii of energies by which they would be
 # wrong are negligible if they are this much smaller.
 _DIGITS_IN_FLOATS, _NEGLIGIBLE = 13, 0.2
+# A proof that is worse than expected is tried again, so often in all.
+_MOST_PROOFS = 3
 _STALLED = "more trial functions do not help"
 _LOG_10 = float(np.log(10.0))
 # Triangles with a circumradius above so many shortest sides are divided.
@@ -196,6 +198,7 @@ def _best_enclosure(
     size = first_sizes(cells, goal)
     best: PeriodEnclosure | None = None
     closest: Refined | None = None
+    n_proofs = 0
     limits.check_memory(cells, size)
     while True:
         with stage(f"series for jumps of 1e-{goal:.1f}"):
@@ -230,7 +233,8 @@ def _best_enclosure(
         best = found if gained else best
         if proved >= digits:
             return best, ""
-        if reason or not gained:
+        n_proofs += 1
+        if reason or not gained or n_proofs == _MOST_PROOFS:
             return best, reason or _STALLED
         logger.info("%.2f digits proved", proved)
         final += 0.5 * (digits - proved + _RESERVE)

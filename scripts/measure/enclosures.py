@@ -1,11 +1,13 @@
-"""Seconds that proved digits take: a table of surfaces by digits, in CPU seconds of one core.
+"""Seconds that proved digits take: surfaces by digits, in CPU seconds of one core.
 
-    OPENBLAS_NUM_THREADS=1 python scripts/measure/enclosures.py [--digits 30 50] [--only omega_1 …]
+    OPENBLAS_NUM_THREADS=1 python scripts/measure/enclosures.py [--only omega_1 …] [--json FILE]
 
-Surfaces from files are read from the folder that IGL_PERIODS_MESHES names.
+Surfaces from files are read from the folder that IGL_PERIODS_MESHES names.  Measurements that the
+JSON file has already stay there, unless they are made again.
 """
 
 import argparse
+import json
 import os
 import time
 import warnings
@@ -13,43 +15,58 @@ from pathlib import Path
 
 import igl_periods as ip
 
-NAMED = {
-    **dict.fromkeys(("omega_1", "omega_2", "omega_3"), ip.surfaces.square_tiled_surface),
-    **dict.fromkeys(("bolza", "klein", "fermat"), ip.surfaces.regular_map_surface),
-}
-FILES = ("Csaszar.ply", "kq_surface.obj", "bob_small.ply", "eight.off", "3holes.obj")
+SQUARE_TILED = ("omega_1", "omega_2", "omega_3")
+REGULAR_MAPS = ("bolza", "klein", "fermat")
+FILES = ("kq_surface.obj", "eight.off", "3holes.obj")
+DIGITS = {"kq_surface.obj": (30,), "eight.off": (8, 12), "3holes.obj": (8, 10)}
+
+
+def surface_named(name):
+    """The arguments of ``enclose``."""
+    if name in SQUARE_TILED:
+        return (ip.surfaces.square_tiled_surface(name),)
+    if name in REGULAR_MAPS:
+        return (ip.surfaces.regular_map_surface(name),)
+    return ip.load_mesh(Path(os.environ["IGL_PERIODS_MESHES"]) / name)[:2]
 
 
 def measured(name, digits):
-    """CPU seconds and the enclosure."""
-    if name in NAMED:
-        surface = (NAMED[name](name),)
-    else:
-        surface = ip.load_mesh(Path(os.environ["IGL_PERIODS_MESHES"]) / name)[:2]
+    """One row: CPU seconds, and what was proved."""
+    surface = surface_named(name)
     start = time.process_time()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ip.ToleranceWarning)
         result = ip.enclose(*surface, digits=digits)
-    return time.process_time() - start, result
+    return {
+        "surface": name,
+        "faces": result.complex.n_faces,
+        "genus": result.genus,
+        "digits": digits,
+        "proved": result.digits,
+        "seconds": time.process_time() - start,
+    }
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--digits", type=int, nargs="+", default=[30, 50, 100])
-    names = [*NAMED, *(FILES if "IGL_PERIODS_MESHES" in os.environ else ())]
-    parser.add_argument("--only", nargs="+", choices=names, default=names)
+    parser.add_argument("--digits", type=int, nargs="+", help="other digits than usual")
+    names = [*SQUARE_TILED, *REGULAR_MAPS, *FILES]
+    found = names if "IGL_PERIODS_MESHES" in os.environ else names[: -len(FILES)]
+    parser.add_argument("--only", nargs="+", choices=names, default=found)
+    parser.add_argument("--json", type=Path)
     arguments = parser.parse_args()
-    print(
-        "| surface (faces, genus) | " + " | ".join(f"{d} digits" for d in arguments.digits) + " |"
-    )
-    print("|---" * (1 + len(arguments.digits)) + "|")
+    known = arguments.json is not None and arguments.json.exists()
+    rows = json.loads(arguments.json.read_text("utf-8"))["enclosures"] if known else []
     for name in arguments.only:
-        cells = []
-        for digits in arguments.digits:
-            seconds, result = measured(name, digits)
-            cells.append(f"{seconds:.1f} s, {result.digits} digits")
-        size = f"({result.complex.n_faces}, {result.genus})"
-        print(f"| {name} {size} | " + " | ".join(cells) + " |", flush=True)
+        for digits in arguments.digits or DIGITS.get(name, (30, 50)):
+            row = measured(name, digits)
+            print(
+                f"{name}: {row['proved']} digits of {digits} in {row['seconds']:.1f} s", flush=True
+            )
+            rows = [x for x in rows if (x["surface"], x["digits"]) != (name, digits)] + [row]
+            if arguments.json is not None:
+                text = json.dumps({"enclosures": rows}, indent=1)
+                arguments.json.write_text(text + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -5,8 +5,8 @@
     python scripts/measure/readme_tables.py --check
 
 Each table stands between two comments, ``<!-- speed -->`` and ``<!-- /speed -->``; the others are
-growth, genus, digits, and packages, which is made of the first lines of their faces.  Sections that
-were not measured stay as they are.
+growth, genus, digits, enclosures (from ``enclosures.json`` beside it), and packages, which is made
+of the first lines of their faces.  Sections that were not measured stay as they are.
 """
 
 import argparse
@@ -19,6 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 README = ROOT / "README.md"
 SOURCE = ROOT / "igl_periods"
+ENCLOSURES = ROOT / "data" / "measurements" / "enclosures.json"
 
 
 def speed(rows):
@@ -84,6 +85,19 @@ def digits(rows):
         )
 
 
+def enclosures(rows):
+    """Surfaces with what they take for each number of digits, one after the other."""
+    yield "surface", "genus", "triangles", "proved digits, in seconds of one core"
+    for name in dict.fromkeys(row["surface"] for row in rows):
+        mine = [row for row in rows if row["surface"] == name]
+        yield (
+            f"`{name}`",
+            str(mine[0]["genus"]),
+            f"{mine[0]['faces']:,}",
+            ", ".join(f"{row['proved']} in {row['seconds']:.2g} s" for row in mine),
+        )
+
+
 def packages():
     """The packages in reading order, and the first lines of their faces."""
     order = re.findall(
@@ -96,7 +110,13 @@ def packages():
         yield f"[`{name}/`](igl_periods/{name}/__init__.py)", summary
 
 
-TABLES = {"speed": speed, "growth": growth, "genus": genus, "digits": digits}
+TABLES = {
+    "speed": speed,
+    "growth": growth,
+    "genus": genus,
+    "digits": digits,
+    "enclosures": enclosures,
+}
 
 
 def markdown(rows):
@@ -113,7 +133,9 @@ def main():
     parser.add_argument("--check", action="store_true", help="write nothing; fail on differences")
     options = parser.parse_args()
     text = before = README.read_text(encoding="utf-8")
-    measured = json.loads(options.json.read_text(encoding="utf-8")).items()
+    measured = list(json.loads(options.json.read_text(encoding="utf-8")).items())
+    if ENCLOSURES.exists():
+        measured += json.loads(ENCLOSURES.read_text(encoding="utf-8")).items()
     tables = {name: TABLES[name](section) for name, section in measured if name in TABLES}
     for name, rows in {"packages": packages(), **tables}.items():
         table = f"<!-- {name} -->\n{markdown(rows)}\n<!-- /{name} -->"
