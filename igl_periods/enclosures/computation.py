@@ -315,14 +315,10 @@ class _Limits:
         self.last = time.perf_counter() - before, float(size.sum())
         return solution
 
-    def expected_seconds(self, size: Ints) -> float:
-        """How long a solution with these numbers of functions will take, by the last one."""
-        seconds, unknowns = self.last
-        return seconds * (float(size.sum()) / unknowns) ** _COST_EXPONENT
-
     def exceeded_by(self, cells: Cells, size: Ints) -> str:
         """Why a solution with these numbers of functions is not to be begun; empty if it may."""
-        expected = self.expected_seconds(size)
+        seconds, unknowns = self.last
+        expected = seconds * (float(size.sum()) / unknowns) ** _COST_EXPONENT
         elapsed = time.perf_counter() - self.start
         # The proof takes about as long as the solution.
         if self.max_seconds is not None and elapsed + 2.0 * expected > self.max_seconds:
@@ -330,6 +326,7 @@ class _Limits:
         needed = stage_memory(cells, size)
         if needed > self._room():
             return f"the next step would take about {needed / 1e9:.3g} GB"
+        logger.info("next: degrees up to %d, about %.2g s", size.max(), expected)
         return ""
 
     def check_memory(self, cells: Cells, size: Ints) -> None:

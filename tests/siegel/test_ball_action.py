@@ -1,7 +1,5 @@
 """The action on balls contains the action on points; energies; reduction."""
 
-import re
-
 import flint
 import numpy as np
 import pytest
@@ -14,8 +12,6 @@ import igl_periods as ip
 from igl_periods.errors import NotASiegelPointError
 from igl_periods.siegel import (
     EnclosedReduction,
-    balls_of,
-    bits_of,
     cholesky,
     energy_balls,
     midpoint,
@@ -73,17 +69,6 @@ def test_balls_are_reduced_where_their_midpoints_are(case):
     assert np.array_equal(again.gamma, gamma)
     assert again.matrix.overlaps(matrix)
     assert ip.siegel_transform(gamma, Enclosed(given_balls, 400)).overlaps(matrix)
-
-
-def test_what_is_known_in_balls():
-    balls = with_radius([[0.25 + 1j]], 20)
-    assert balls_of(balls) is balls
-    assert balls_of(Enclosed(balls, 100)) is balls
-    assert balls_of(np.array([[1j]])) is None
-    assert bits_of(Enclosed(balls, 500)) == 500
-    assert ip.to_flint(Enclosed(balls, 100)) is balls
-    text = repr(ip.siegel_reduce(balls))
-    assert re.fullmatch(r"EnclosedReduction by γ \(2 × 2\) to\n  0\.250+ \+ 1\.0+ i", text)
 
 
 def test_distance_has_all_digits_of_the_balls():
