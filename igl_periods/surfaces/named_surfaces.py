@@ -30,14 +30,25 @@ from igl_periods.symplectic import integer_symplectic_basis
 from .named_surface import NamedSurface
 
 
-def catalogue(genus: int) -> list[NamedSurface]:
-    """All named surfaces of a genus; no two of them are conformally equivalent.
+def catalogue(genus: int | None = None) -> list[NamedSurface]:
+    """Named surfaces, no two of them conformally equivalent.
+
+    Parameters
+    ----------
+    genus : int, optional
+        All of this genus; by default all up to genus 4, beyond which there are only those of the
+        two families.
 
     Examples
     --------
+    >>> len(catalogue())
+    16
     >>> [surface.name for surface in catalogue(2)]
     ['Omega_1', 'Bolza curve', 'y^2 = x^5 - 1', 'Lawson xi_{2,1}']
     """
+    if genus is None:
+        largest = max(surface.genus for surface in _SINGLE)
+        return [surface for g in range(1, largest + 1) for surface in catalogue(g)]
     single = [surface for surface in _SINGLE if surface.genus == genus]
     return single + list(_families(genus))
 
