@@ -13,7 +13,6 @@ from igl_periods.cli.program import main
     [
         (["{}"], 1, "there is no mesh in the folder"),
         (["{}/nowhere"], 1, "there is no folder and no list"),
-        (["{}", "--degree", "0"], 2, "degree 1 at least"),
         (["a.off", "--scheduler", "nonsense://x"], 1, "there is no scheduler"),
     ],
 )
@@ -30,7 +29,8 @@ def test_refusals(tmp_path, capsys, arguments, code, message):
     [
         (["meshes"], "-o"),
         (["-o", "x.parquet"], "DIR"),
-        (["meshes", "-o", "x.csv"], "is a .parquet file"),
+        (["meshes", "-o", "x.xlsx"], "a table has a name in .parquet or .csv, not 'x.xlsx'"),
+        (["meshes", "-o", "x.csv", "--degree", "0"], "degree 1 at least"),
         (["meshes", "-o", "x.parquet", "--workers", "0"], "at least 1"),
         (["meshes", "-o", "x.parquet", "--workers", "2", "--scheduler", "x"], "not allowed with"),
     ],
