@@ -26,7 +26,7 @@ from .parser import Parser, refuse_without_effect
 
 ALL = "all"
 # The options of :func:`~igl_periods.period_matrix`, as attributes.
-PERIOD_OPTIONS = ("weights", "delaunay", "degree", "tolerance")
+PERIOD_OPTIONS = ("weights", "delaunay", "degree", "tolerance", "rigorous")
 
 # What :meth:`argparse.ArgumentParser.add_subparsers` returns.
 Commands: TypeAlias = "argparse._SubParsersAction[Parser]"
@@ -112,6 +112,11 @@ def add_period_arguments(command: Parser) -> None:
         metavar="R",
         help="raise the degree until the certified bound is at most R",
     )
+    command.add_argument(
+        "--rigorous",
+        action="store_true",
+        help="prove the bound in ball arithmetic, roundings included",
+    )
 
 
 def add_memory_argument(command: Parser) -> None:
@@ -166,7 +171,7 @@ def computed(K: DeltaComplex, options: argparse.Namespace) -> PeriodMatrix:
 
 
 def _check_period_options(command: Parser, options: argparse.Namespace) -> None:
-    check_options(options.weights, options.degree, options.tolerance)
+    check_options(options.weights, options.degree, options.tolerance, options.rigorous)
     if options.weights == "extrinsic":
         why = "with extrinsic weights, which are those of the triangulation as it is"
         refuse_without_effect(command, options, ("delaunay",), why)

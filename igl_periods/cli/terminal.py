@@ -24,7 +24,7 @@ _SIGNS = {
     "↦": "->", "⇒": "=>", "∞": "inf", "∫": "int ", "∮": "int ", "√": "sqrt ", "∏": "prod ",
     "∑": "sum ", "°": " deg", "–": "-", "—": "-", "’": "'", "‘": "'", "“": '"', "”": '"',
     "…": "...", "∈": "in", "∂": "d", "║": "||", "‖": "||", "⟨": "<", "⟩": ">", "ß": "ss", "æ": "ae",
-    "ø": "o",
+    "ø": "o", "′": "'", "⋮": ":", "∧": "^", "⊕": "+", "⊗": "x",
 }  # fmt: skip
 
 
@@ -97,8 +97,8 @@ def _height(letter: str) -> str:
 
 
 def _letter_in_ascii(letter: str) -> str:
-    if letter.isascii():
-        return letter
+    if letter.isascii() or unicodedata.combining(letter):
+        return letter * letter.isascii()
     plain = unicodedata.normalize("NFKD", letter)
     for text in (_SIGNS.get(letter), _SIGNS.get(plain), _greek(letter), _without_accents(plain)):
         if text:

@@ -19,6 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from igl_periods.arrays import Bools, Floats, Ints
+from igl_periods.errors import MeshError
 
 from .outlines import FLAT, divided
 
@@ -66,7 +67,7 @@ def triangulated(V: Floats, corners: Ints, degrees: Ints) -> Triangulation:
     Raises
     ------
     MeshError
-        If the outline of a polygon crosses itself.
+        If the outline of a polygon crosses itself, or no triangle is left.
     """
     kept, sizes = _without_repeated_corners(corners, degrees)
     spare = corners.size - kept.size
@@ -88,8 +89,11 @@ def triangulated(V: Floats, corners: Ints, degrees: Ints) -> Triangulation:
         end = place[f] + len(triangles)
         F[place[f] : end], F[end : place[f + 1]] = triangles, -1
     _avoid_crowded_edges(P, F, owner, sizes, kept)
+    F = F[F[:, 0] >= 0]
+    if len(F) == 0:
+        raise MeshError("no polygon has an area: all of them run back along their own sides.")
     return Triangulation(
-        F[F[:, 0] >= 0],
+        F,
         fanned=int(np.count_nonzero(many & good)),
         clipped=clipped.size,
         not_planar=int(np.count_nonzero(many & (unevenness > PLANARITY))),

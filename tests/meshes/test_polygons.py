@@ -188,6 +188,12 @@ def test_repeated_corners_are_left_out_and_counted():
     assert (len(kept.F), kept.repeated_corners) == (2, 0)
 
 
+def test_polygons_that_run_back_along_their_sides_leave_nothing():
+    V = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0.0]])
+    with pytest.raises(ip.MeshError, match="no polygon has an area"):
+        triangulated(V, np.array([0, 1, 2, 1]), np.array([4]))
+
+
 @pytest.mark.parametrize("form", ["obj", "off", "ply"])
 def test_all_formats_divide_alike(tmp_path, form):
     V, F, _ = ip.load_mesh(CASES / "frame_of_ells.obj")
