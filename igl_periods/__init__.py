@@ -25,7 +25,7 @@ page.  In reading order:
 ``forms``          the discrete theory of the paper on Λ = Γ ⊕ Γ*
 ``differentials``  Π on the mesh → holomorphic forms, parametrization, Abel–Jacobi
 ``surfaces``       reference surfaces, their exact Π, and which of them a Π is
-``pictures``, ``reports``, ``cli``, ``batch``, ``distributed``
+``pictures``, ``reports``, ``cli``, ``batch``, ``distributed``, ``machine``
 =================  ============================================================================
 """
 

@@ -19,7 +19,7 @@ from igl_periods.meshes import (
     way_out,
 )
 from igl_periods.output_files import check_output
-from igl_periods.periods import PeriodMatrix, check_options, period_matrix
+from igl_periods.periods import PeriodMatrix, checked_options, period_matrix
 from igl_periods.run_log import stage
 
 from .parser import Parser, refuse_without_effect
@@ -171,7 +171,7 @@ def computed(K: DeltaComplex, options: argparse.Namespace) -> PeriodMatrix:
 
 
 def _check_period_options(command: Parser, options: argparse.Namespace) -> None:
-    check_options(options.weights, options.degree, options.tolerance, options.rigorous)
+    checked_options(options.weights, options.degree, options.tolerance, options.rigorous)
     if options.weights == "extrinsic":
         why = "with extrinsic weights, which are those of the triangulation as it is"
         refuse_without_effect(command, options, ("delaunay",), why)

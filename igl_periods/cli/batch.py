@@ -8,8 +8,8 @@ from contextlib import ExitStack, contextmanager, nullcontext
 from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias
 
 from igl_periods.display import counted
-from igl_periods.extras import require
 from igl_periods.interrupts import INTERRUPTED
+from igl_periods.machine import require
 
 from .arguments import (
     Commands,

@@ -12,8 +12,8 @@ import sys
 from collections.abc import Sequence
 
 from igl_periods.errors import MissingExtraError, PeriodsError
-from igl_periods.extras import require
 from igl_periods.interrupts import INTERRUPTED, interrupt_as_usual
+from igl_periods.machine import require
 
 from .batch import add_batch
 from .compute import add_compute

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from igl_periods.extras import require
+from igl_periods.machine import require
 
 from .arguments import Commands, add_output_argument, claim
 from .picture_arguments import add_picture_command, chosen_surface, how_computed, reduced_matrix

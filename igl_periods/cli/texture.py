@@ -6,7 +6,7 @@ import argparse
 import math
 from pathlib import Path
 
-from igl_periods.extras import require
+from igl_periods.machine import require
 from igl_periods.reports import parametrization_in_words
 
 from .arguments import Commands, add_output_argument, claim
