@@ -29,6 +29,10 @@ page.  In reading order:
 =================  ============================================================================
 """
 
+from .interrupts import end_quietly_while_importing as _end_quietly_while_importing
+
+_end_quietly_while_importing()
+
 from importlib.metadata import version as _version
 
 from . import forms, genus_two, surfaces

@@ -1,3 +1,4 @@
+# PYTHON_ARGCOMPLETE_OK
 """``python -m igl_periods``: the command ``igl-periods``."""
 
 import sys

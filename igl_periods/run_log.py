@@ -33,7 +33,7 @@ def stage(name: str) -> Iterator[None]:
     _clock.last = start
     try:
         yield
-    except BaseException:
+    except Exception:
         logger.info("%s failed", name)
         raise
     seconds = time.perf_counter() - start

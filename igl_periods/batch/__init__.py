@@ -1,4 +1,4 @@
-"""Many meshes: one row for each of their components, in a Parquet file.
+"""Many meshes: one row for each of their components, in a Parquet or CSV file.
 
     files ─ workers ▶ rows ─ journal ▶ results.parquet
 

@@ -2,7 +2,8 @@ r"""What one file becomes in a table of many: a row for each component, or a row
 
 Every surface has its row, also one that is refused: then ``error`` says why, ``error_kind`` is the
 name of the exception, and what could not be computed is None.  A file that cannot be read at all
-has a single row.  Nothing but the file and the options decides what a row holds, except for
+has a single row, and so has one that is torn into pieces along its seams, whose pieces mean
+nothing.  Nothing but the file and the options decides what a row holds, except for
 ``seconds``, as long as there is enough memory; so a table does not depend on who computed which
 part of it.
 
@@ -33,8 +34,9 @@ from os import PathLike
 from typing import Any
 
 from igl_periods.complexes import DeltaComplex, as_complex
+from igl_periods.errors import ComplexError
 from igl_periods.machine import one_thread
-from igl_periods.meshes import MeshReport, components_by_genus, read_surface, surface_of
+from igl_periods.meshes import MeshReport, components_by_genus, read_surface, surface_of, way_out
 from igl_periods.moduli import (
     absolute_igusa_invariants,
     certified_j_invariant,
@@ -202,6 +204,7 @@ def _computed(
         surface, report = read_surface(path, options.repair)
         first["mesh_report"] = report and _report_as_json(report, name)
         parts = components_by_genus(surface_of(as_complex(*surface), options.double))
+        _check_pieces(parts, report)
     except Exception as error:
         yield _row(**first, **_refusal(error, path), seconds=lap())
         return
@@ -213,6 +216,14 @@ def _computed(
         except Exception as error:
             row |= _refusal(error, path)
         yield {**row, "mollification": K.mollification, "seconds": lap()}
+
+
+def _check_pieces(parts: list[DeltaComplex], report: MeshReport | None) -> None:
+    """Refuse a file as a whole that has nothing but pieces of a torn surface."""
+    if not report or not report.result.seam_edges or len(parts) == 1:
+        return
+    if all(part.n_boundary_edges for part in parts):
+        raise ComplexError(f"the surface is torn into {len(parts)} pieces. {way_out(report)}")
 
 
 def _refusal(error: Exception, path: str | PathLike[str]) -> Row:

@@ -13,6 +13,7 @@ from dask.system import CPU_COUNT
 from distributed import Client
 
 from igl_periods.display import facts_html
+from igl_periods.machine import check_output
 
 from .cluster import local_cluster, outcomes
 from .journal import Journal
@@ -68,7 +69,7 @@ def run_batch(
     retry: bool = False,
     progress: Callable[[int, int, int], None] | None = None,
 ) -> BatchResult:
-    """Compute the rows of many files, and write them to a Parquet file.
+    """Compute the rows of many files, and write them to a Parquet or CSV file.
 
     The journal ``<output>.journal`` keeps the rows of finished files.  They are used again as long
     as the bytes of the file, the options and the version of the library are the same.
@@ -79,6 +80,7 @@ def run_batch(
         The paths, as workers see them, by the names that the rows shall have:
         :func:`find_files`.
     output : path-like
+        A table in the form that its suffix says, ``.parquet`` or ``.csv``.
     options : BatchOptions, optional
     client : distributed.Client, optional
         The cluster to use; default: processes on this machine, for the time of the call.  A script
@@ -110,7 +112,8 @@ def run_batch(
 
         run_batch(find_files("meshes"), "results.parquet", BatchOptions(tolerance=1e-6))
     """
-    options, place = options or BatchOptions(), _checked_output(Path(output).absolute())
+    options, place = options or BatchOptions(), Path(output).absolute()
+    check_output(place, *files.values())
     paths = {name: Path(path) for name, path in files.items()}
     with Journal(place.with_name(f"{place.name}.journal"), restart) as journal:
         done = {
@@ -131,15 +134,6 @@ def run_batch(
         rows = [row for name in paths for row in done[name]]
         write_rows(rows, place)
     return BatchResult(rows, len(pending), len(paths) - len(pending))
-
-
-def _checked_output(place: Path) -> Path:
-    """The output, refused before anything is computed if it cannot be written in the end."""
-    if not place.parent.is_dir():
-        raise FileNotFoundError(f"there is no folder {str(place.parent)!r} for {place.name!r}")
-    if place.is_dir():
-        raise IsADirectoryError(f"the output {str(place)!r} is a folder")
-    return place
 
 
 def _silent(done: int, refused: int, total: int) -> None:

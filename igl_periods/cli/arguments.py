@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import math
 import warnings
+from pathlib import Path
 from typing import Any, TypeAlias
 
 from igl_periods.complexes import DeltaComplex, as_complex, check_surface
 from igl_periods.errors import ComplexError, MeshError
+from igl_periods.machine import check_output
 from igl_periods.meshes import (
     WELD,
     MeshReport,
@@ -16,21 +19,32 @@ from igl_periods.meshes import (
     surface_of,
     way_out,
 )
+from igl_periods.periods import PeriodMatrix, checked_options, period_matrix
 from igl_periods.run_log import stage
 
+from .parser import Parser, refuse_without_effect
+
 ALL = "all"
+# The options of :func:`~igl_periods.period_matrix`, as attributes.
+PERIOD_OPTIONS = ("weights", "delaunay", "degree", "tolerance", "rigorous")
 
 # What :meth:`argparse.ArgumentParser.add_subparsers` returns.
-Commands: TypeAlias = "argparse._SubParsersAction[argparse.ArgumentParser]"
+Commands: TypeAlias = "argparse._SubParsersAction[Parser]"
 
 
-def add_surface_arguments(command: argparse.ArgumentParser, several: bool = False) -> None:
-    """Add what every command needs to find its surface; ``several`` allows ``--component all``."""
+def add_surface_arguments(command: Parser, several: bool = False) -> None:
+    """Add what every command needs to find its surface; ``several`` allows more of everything.
+
+    With ``several`` there are ``meshes``, at least one, and ``--component all``; otherwise one
+    ``mesh``.
+    """
     command.add_argument(
-        "mesh",
+        "meshes" if several else "mesh",
+        nargs="+" if several else None,
         metavar="MESH",
         help="a mesh (OBJ, OFF, PLY, STL, 3MF, glTF, …), or a gluing of triangles (.json)",
     )
+    command.checks.append(_check_repair)
     add_reading_arguments(command)
     add_repair_arguments(command)
     command.add_argument(
@@ -42,7 +56,7 @@ def add_surface_arguments(command: argparse.ArgumentParser, several: bool = Fals
     )
 
 
-def add_reading_arguments(command: argparse.ArgumentParser) -> None:
+def add_reading_arguments(command: Parser) -> None:
     """Add what is done to every mesh before anything is computed."""
     command.add_argument(
         "--repair",
@@ -57,7 +71,7 @@ def add_reading_arguments(command: argparse.ArgumentParser) -> None:
     command.add_argument("--quiet", action="store_true", help="no progress on the terminal")
 
 
-def add_repair_arguments(command: argparse.ArgumentParser) -> None:
+def add_repair_arguments(command: Parser) -> None:
     """Add how far a repair goes; each of them implies it."""
     command.add_argument(
         "--weld",
@@ -74,8 +88,9 @@ def add_repair_arguments(command: argparse.ArgumentParser) -> None:
     )
 
 
-def add_period_arguments(command: argparse.ArgumentParser) -> None:
-    """Add the options of :func:`~igl_periods.period_matrix`."""
+def add_period_arguments(command: Parser) -> None:
+    """Add the options of :func:`~igl_periods.period_matrix`; :func:`computed` reads them."""
+    command.checks.append(_check_period_options)
     command.add_argument(
         "--weights",
         choices=("intrinsic", "extrinsic"),
@@ -104,25 +119,69 @@ def add_period_arguments(command: argparse.ArgumentParser) -> None:
     )
 
 
-def add_memory_argument(command: argparse.ArgumentParser) -> None:
-    """Add the limit of memory; :func:`memory_limit` reads it."""
+def add_memory_argument(command: Parser) -> None:
+    """Add the limit of memory, which :func:`computed` observes."""
     command.add_argument(
         "--max-memory",
-        type=float,
+        type=_gigabytes,
         metavar="GB",
         help="refuse what would take more memory (default: what is available)",
     )
 
 
-def memory_limit(options: argparse.Namespace) -> dict[str, float]:
-    """The keyword of :func:`~igl_periods.period_matrix` for it, if it was given."""
-    return {} if options.max_memory is None else {"max_memory": 1e9 * options.max_memory}
+def add_json_argument(command: Parser) -> None:
+    """Add the choice between words and documents."""
+    command.add_argument(
+        "--json",
+        action="store_true",
+        help="print a JSON document for each mesh, on one line if there are several",
+    )
+
+
+def add_output_argument(command: Parser, what: str, *suffixes: str) -> None:
+    """Add the file that a command writes: its name is checked here, its place in :func:`claim`."""
+
+    def output(text: str) -> str:
+        if Path(text).suffix.lower() not in suffixes:
+            known = " or ".join(suffixes)
+            raise argparse.ArgumentTypeError(f"{what} has a name in {known}, not {text!r}")
+        return text
+
+    command.add_argument(
+        "-o", "--output", required=True, type=output, metavar="FILE", help=f"{what} ({suffixes[0]})"
+    )
 
 
 def chosen_options(options: argparse.Namespace) -> dict[str, Any]:
     """The keywords of :func:`~igl_periods.period_matrix` that decide about the result."""
-    names = ("weights", "delaunay", "degree", "tolerance", "rigorous")
-    return {name: getattr(options, name) for name in names}
+    return {name: getattr(options, name) for name in PERIOD_OPTIONS}
+
+
+def reading_options(options: argparse.Namespace) -> dict[str, Any]:
+    """What decides about the surface that is meant, as far as it was said."""
+    given = {name: getattr(options, name) for name in ("repair", "double", "component")}
+    how_far = {"weld": options.weld, "fill_holes": options.fill_holes}
+    return given | {name: value for name, value in how_far.items() if value is not None}
+
+
+def computed(K: DeltaComplex, options: argparse.Namespace) -> PeriodMatrix:
+    """The period matrix of a surface as it was asked for."""
+    limit = {} if options.max_memory is None else {"max_memory": 1e9 * options.max_memory}
+    return period_matrix(K, **chosen_options(options), **limit)
+
+
+def _check_period_options(command: Parser, options: argparse.Namespace) -> None:
+    checked_options(options.weights, options.degree, options.tolerance, options.rigorous)
+    if options.weights == "extrinsic":
+        why = "with extrinsic weights, which are those of the triangulation as it is"
+        refuse_without_effect(command, options, ("delaunay",), why)
+
+
+def _check_repair(command: Parser, options: argparse.Namespace) -> None:
+    meshes = getattr(options, "meshes", None) or [options.mesh]
+    if all(Path(mesh).suffix.lower() == ".json" for mesh in meshes):
+        why = "on gluings of triangles (.json), which are taken as they are"
+        refuse_without_effect(command, options, ("repair", "weld", "fill_holes"), why)
 
 
 def read_surfaces(options: argparse.Namespace) -> tuple[list[DeltaComplex], MeshReport | None]:
@@ -177,10 +236,13 @@ def heading(k: int, n: int) -> str:
     return f"\nComponent {k + 1} of {n}" if n > 1 else ""
 
 
-def repair_options(options: argparse.Namespace) -> dict[str, float]:
-    """How far the repair goes, as far as it was said."""
-    given = {"weld": options.weld, "fill_holes": options.fill_holes}
-    return {name: value for name, value in given.items() if value is not None}
+def claim(options: argparse.Namespace, *beside: str) -> None:
+    """Refuse an output that cannot be written, before anything is read or computed.
+
+    ``beside`` are suffixes of files that will be written beside it.
+    """
+    for path in (Path(options.output), *map(Path(options.output).with_suffix, beside)):
+        check_output(path, options.mesh)
 
 
 def _part(text: str) -> float:
@@ -194,6 +256,13 @@ def _size(text: str) -> int:
     value = int(text)
     if value < 0:
         raise argparse.ArgumentTypeError(f"a number of edges, not {text}")
+    return value
+
+
+def _gigabytes(text: str) -> float:
+    value = float(text)
+    if not 0.0 < value < math.inf:
+        raise argparse.ArgumentTypeError(f"a number of gigabytes above 0, not {text}")
     return value
 
 

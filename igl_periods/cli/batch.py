@@ -3,23 +3,29 @@
 from __future__ import annotations
 
 import argparse
-from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, nullcontext
-from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias
 
 from igl_periods.display import counted
+from igl_periods.interrupts import INTERRUPTED
 from igl_periods.machine import require
 
-from .arguments import Commands, add_period_arguments, add_reading_arguments, chosen_options
+from .arguments import (
+    Commands,
+    add_output_argument,
+    add_period_arguments,
+    add_reading_arguments,
+    chosen_options,
+)
 from .terminal import refused, say
 
 if TYPE_CHECKING:
     from igl_periods.batch import BatchOptions, BatchResult
 
-
-_WRONG_USAGE, _INTERRUPTED = 2, 130
+_Row: TypeAlias = "dict[str, Any]"
+# Refused files that are named, of each kind of error.
+_NAMED = 10
 
 
 def add_batch(commands: Commands) -> None:
@@ -28,8 +34,8 @@ def add_batch(commands: Commands) -> None:
         "batch",
         help="a table of the period matrices of many meshes",
         description="Compute the period matrices of many meshes, on several processes or on a "
-        "Dask cluster, and write a Parquet file with a row for each component. A mesh that is "
-        "refused has a row that says why. An interrupted run is continued by the same command.",
+        "Dask cluster, and write a Parquet or CSV file with a row for each component. A mesh that "
+        "is refused has a row that says why. An interrupted run is continued by the same command.",
         epilog="Exit codes: 0 every file has its rows, 1 the files, the output or the cluster "
         "cannot be used, 2 wrong usage, 130 interrupted.",
     )
@@ -40,9 +46,7 @@ def add_batch(commands: Commands) -> None:
         help="a folder, searched for meshes and gluings with all folders in it; a text file with "
         "a path on each line, relative to its own folder; or a mesh",
     )
-    batch.add_argument(
-        "-o", "--output", required=True, type=_parquet, metavar="FILE", help="a .parquet file"
-    )
+    add_output_argument(batch, "a table", ".parquet", ".csv")
     add_reading_arguments(batch)
     add_period_arguments(batch)
     where = batch.add_mutually_exclusive_group()
@@ -72,10 +76,7 @@ def _batch(options: argparse.Namespace) -> int:
     from igl_periods.batch import BatchOptions
     from igl_periods.errors import BatchError
 
-    try:
-        chosen = BatchOptions(options.repair, options.double, **chosen_options(options))
-    except ValueError as error:
-        return refused(error, _WRONG_USAGE)
+    chosen = BatchOptions(options.repair, options.double, **chosen_options(options))
     try:
         result = _run(options, chosen)
     except BatchError as error:
@@ -84,7 +85,7 @@ def _batch(options: argparse.Namespace) -> int:
         return refused(
             f"interrupted. What was finished is kept in {options.output}.journal: the same command "
             "goes on from there" + (", without --restart." if options.restart else "."),
-            _INTERRUPTED,
+            INTERRUPTED,
         )
     say("\n".join(_in_words(options.output, result)))
     return 0
@@ -137,21 +138,34 @@ def _in_words(output: str, result: BatchResult) -> list[str]:
     else:
         what = "nothing to do: no file has changed"
     lines = [f"{output}: {rows} of {files} ({what})"]
-    if refused := result.refused:
-        kinds = Counter(row["error_kind"] for row in refused).most_common()
-        why = ", ".join(f"{count} {kind}" for kind, count in kinds)
-        lines.append(
-            f"  {len(refused)} without a period matrix (the column 'error' says why): {why}"
-        )
+    lines += _refusals_in_words(result.refused)
     if dead := result.deadly:
         lines.append(f"  workers died on {', '.join(dead)}: try fewer --workers, with --retry")
     return lines
 
 
-def _parquet(text: str) -> str:
-    if Path(text).suffix.lower() != ".parquet":
-        raise argparse.ArgumentTypeError(f"the output is a .parquet file, and {text!r} is none")
-    return text
+def _refusals_in_words(refused: Sequence[_Row]) -> list[str]:
+    """How many files were refused for which kind of reason, and the first of each with why."""
+    if not refused:
+        return []
+    kinds: dict[str, dict[str, _Row]] = {}
+    for row in refused:
+        kinds.setdefault(row["error_kind"], {}).setdefault(row["file"], row)
+    files = counted(len({row["file"] for row in refused}), "file", "files")
+    rows = counted(len(refused), "row", "rows")
+    lines = [f"  {files} with {rows} without a period matrix (the column 'error' says why):"]
+    for kind, first in sorted(kinds.items(), key=lambda item: -len(item[1])):
+        lines.append(f"  {len(first)} {kind}")
+        lines += [f"    {name}: {_why(row)}" for name, row in list(first.items())[:_NAMED]]
+        if len(first) > _NAMED:
+            lines.append(f"    … and {len(first) - _NAMED} more")
+    return lines
+
+
+def _why(row: _Row) -> str:
+    """The first sentence of an error."""
+    which = f"component {row['component']}: " if row["component"] else ""
+    return which + str(row["error"]).split("\n")[0].partition(". ")[0].rstrip(".")
 
 
 def _positive(text: str) -> int:

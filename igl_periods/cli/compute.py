@@ -3,36 +3,30 @@
 from __future__ import annotations
 
 import argparse
-import importlib.metadata
-import json
 from typing import Any
 
 from igl_periods.arrays import Ints
 from igl_periods.meshes import MeshReport
-from igl_periods.periods import (
-    PeriodMatrix,
-    period_matrix,
-    real_structure,
-    reduced_if_feasible,
-)
-from igl_periods.reports import LARGEST_PRINTED, SCHEMA, result_to_json, summary
+from igl_periods.periods import PeriodMatrix, real_structure, reduced_if_feasible
+from igl_periods.reports import result_to_json, summary
 from igl_periods.run_log import stage
 from igl_periods.siegel import SIEGEL_GENUS_LIMIT
 
 from .arguments import (
     ALL,
     Commands,
+    add_json_argument,
     add_memory_argument,
     add_period_arguments,
     add_surface_arguments,
     chosen_options,
+    computed,
     heading,
-    memory_limit,
     mesh_in_words,
     read_surfaces,
-    repair_options,
+    reading_options,
 )
-from .terminal import say
+from .each_mesh import Answer, answer_each
 
 # In the marking of the mesh; Siegel reduced, and by which γ, or None and None.
 Result = tuple[PeriodMatrix, PeriodMatrix | None, Ints | None]
@@ -42,13 +36,16 @@ def add_compute(commands: Commands) -> None:
     """Add the command to the parser of ``igl-periods``."""
     compute = commands.add_parser(
         "compute",
-        help="the period matrix of a mesh",
-        description="Compute the period matrix of a closed, oriented, connected triangle mesh.",
+        help="the period matrix of a mesh, or of several",
+        description="Compute the period matrix of a closed, oriented, connected triangle mesh, or "
+        "of several such meshes, one after the other.",
+        epilog="Exit codes: 0 done, 1 one of the meshes was refused, the others computed, 2 wrong "
+        "usage, 130 interrupted.",
     )
     add_surface_arguments(compute, several=True)
     add_period_arguments(compute)
     add_memory_argument(compute)
-    compute.add_argument("--json", action="store_true", help="print one JSON document")
+    add_json_argument(compute)
     reduction = compute.add_mutually_exclusive_group()
     reduction.add_argument(
         "--reduce",
@@ -67,18 +64,16 @@ def add_compute(commands: Commands) -> None:
 
 
 def _compute(options: argparse.Namespace) -> int:
+    return answer_each(options, _answer)
+
+
+def _answer(options: argparse.Namespace) -> Answer:
     surfaces, report = read_surfaces(options)
-    chosen = chosen_options(options) | memory_limit(options)
-    results = [_reduced(period_matrix(K, **chosen), options.reduce) for K in surfaces]
+    results = [_reduced(computed(K, options), options.reduce) for K in surfaces]
     if options.json:
-        # Large matrices are for programs: hundreds of megabytes if each entry has its own line.
-        readable = all(pm.genus <= LARGEST_PRINTED for pm, *_ in results)
-        say(json.dumps(_document(options, results, report), indent=1 if readable else None))
-        return 0
-    say(mesh_in_words(options, report))
-    for k, result in enumerate(results):
-        say(f"{heading(k, len(results))}\n{summary(*result)}")
-    return 0
+        return _document(options, results, report)
+    sections = [f"{heading(k, len(results))}\n{summary(*r)}" for k, r in enumerate(results)]
+    return "\n".join([mesh_in_words(options, report), *sections])
 
 
 def _reduced(pm: PeriodMatrix, wanted: bool | None) -> Result:
@@ -92,19 +87,16 @@ def _reduced(pm: PeriodMatrix, wanted: bool | None) -> Result:
 def _document(
     options: argparse.Namespace, results: list[Result], report: MeshReport | None
 ) -> dict[str, Any]:
-    """One JSON document: the only surface itself, or with all components a list of them."""
+    """The only surface itself, or with all components a list of them, and how it was made."""
     documents = [result_to_json(*result) for result in results]
     surfaces: dict[str, Any] = documents[0]
     if options.component == ALL:
         surfaces = {"components": documents}
     if options.double and options.component is None:
         surfaces["mesh_marking"]["real_structure"] = real_structure(results[0][0]).tolist()
-    names = ("repair", "double", "component", "reduce")
-    given = {name: getattr(options, name) for name in names} | repair_options(options)
+    given = reading_options(options) | {"reduce": options.reduce}
     return {
-        "schema": SCHEMA,
-        "version": importlib.metadata.version("igl_periods"),
         **surfaces,
-        "options": {**chosen_options(options), **given},
+        "options": chosen_options(options) | given,
         "mesh": report.as_dict() if report else None,
     }

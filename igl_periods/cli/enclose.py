@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import importlib.metadata
-import json
 from typing import Any
 
 from igl_periods.complexes import DeltaComplex
@@ -17,15 +15,15 @@ from igl_periods.siegel import siegel_reduce
 from .arguments import (
     ALL,
     Commands,
+    add_json_argument,
     add_memory_argument,
     add_surface_arguments,
     heading,
-    memory_limit,
     mesh_in_words,
     read_surfaces,
-    repair_options,
+    reading_options,
 )
-from .terminal import say
+from .each_mesh import Answer, answer_each
 
 _DIGITS = 30
 
@@ -54,26 +52,31 @@ def add_enclose(commands: Commands) -> None:
         "printed",
     )
     add_memory_argument(command)
-    command.add_argument("--json", action="store_true", help="print one JSON document")
+    add_json_argument(command)
     command.set_defaults(run=_enclose)
 
 
 def _enclose(options: argparse.Namespace) -> int:
+    return answer_each(options, _answer)
+
+
+def _answer(options: argparse.Namespace) -> Answer:
     surfaces, report = read_surfaces(options)
     results = [_enclosed(K, options) for K in surfaces]
     if options.json:
-        say(json.dumps(_document(options, results, report), indent=1))
-        return 0
-    say(mesh_in_words(options, report))
-    for k, result in enumerate(results):
-        text = enclosure_summary(reduced_enclosure(result)[0], options.digits)
-        say(f"{heading(k, len(results))}\n{text}")
-    return 0
+        return _document(options, results, report)
+    texts = [enclosure_summary(reduced_enclosure(result)[0], options.digits) for result in results]
+    sections = [f"{heading(k, len(texts))}\n{text}" for k, text in enumerate(texts)]
+    return "\n".join([mesh_in_words(options, report), *sections])
 
 
 def _enclosed(K: DeltaComplex, options: argparse.Namespace) -> PeriodEnclosure:
-    limits = {"max_seconds": options.max_seconds, **memory_limit(options)}
-    return enclose(with_exact_distances(K), digits=options.digits, **limits)
+    return enclose(
+        with_exact_distances(K),
+        digits=options.digits,
+        max_seconds=options.max_seconds,
+        max_memory=options.max_memory,
+    )
 
 
 def reduced_enclosure(enclosed: PeriodEnclosure) -> tuple[PeriodEnclosure, list[list[int]]]:
@@ -88,12 +91,10 @@ def _document(
 ) -> dict[str, Any]:
     """One JSON document: that of the only surface itself, or with all components a list of them."""
     documents = [_result_in_json(result) for result in results]
-    names = ("digits", "max_seconds", "repair", "double", "component")
-    given = {name: getattr(options, name) for name in names} | repair_options(options)
+    given = {name: getattr(options, name) for name in ("digits", "max_seconds", "max_memory")}
     return {
         **({"components": documents} if options.component == ALL else documents[0]),
-        "version": importlib.metadata.version("igl_periods"),
-        "options": given,
+        "options": given | reading_options(options),
         "mesh": report.as_dict() if report else None,
     }
 

@@ -3,23 +3,30 @@
 from __future__ import annotations
 
 import argparse
+from typing import Any
 
 from igl_periods.complexes import DeltaComplex
 from igl_periods.enclosures import PeriodEnclosure, enclose, with_exact_distances
-from igl_periods.periods import PeriodMatrix, period_matrix
+from igl_periods.periods import PeriodMatrix
+from igl_periods.reports import identification_to_json
 from igl_periods.run_log import stage
-from igl_periods.surfaces import identify
+from igl_periods.surfaces import Identification, identify
 
 from .arguments import (
+    ALL,
     Commands,
+    add_json_argument,
+    add_memory_argument,
     add_period_arguments,
     add_surface_arguments,
     chosen_options,
+    computed,
     heading,
     mesh_in_words,
     read_surfaces,
+    reading_options,
 )
-from .terminal import say
+from .each_mesh import Answer, answer_each
 
 
 def add_identify(commands: Commands) -> None:
@@ -31,6 +38,8 @@ def add_identify(commands: Commands) -> None:
     )
     add_surface_arguments(recognise, several=True)
     add_period_arguments(recognise)
+    add_memory_argument(recognise)
+    add_json_argument(recognise)
     recognise.add_argument(
         "--mesh-error",
         type=float,
@@ -48,18 +57,34 @@ def add_identify(commands: Commands) -> None:
 
 
 def _identify(options: argparse.Namespace) -> int:
+    return answer_each(options, _answer)
+
+
+def _answer(options: argparse.Namespace) -> Answer:
     surfaces, report = read_surfaces(options)
-    say(mesh_in_words(options, report))
-    for k, K in enumerate(surfaces):
-        pm = _known(K, options)
-        with stage("comparing"):
-            found = identify(pm, tolerance=options.mesh_error)
-        say(f"{heading(k, len(surfaces))}\n{found}")
-    return 0
+    found = [_identified(K, options) for K in surfaces]
+    if not options.json:
+        sections = [f"{heading(k, len(found))}\n{names}" for k, (_, names) in enumerate(found)]
+        return "\n".join([mesh_in_words(options, report), *sections])
+    documents = [identification_to_json(*pair) for pair in found]
+    body: dict[str, Any] = documents[0]
+    if options.component == ALL:
+        body = {"components": documents}
+    given = reading_options(options) | {"mesh_error": options.mesh_error}
+    mesh = report.as_dict() if report else None
+    return {**body, "options": chosen_options(options) | given, "mesh": mesh}
+
+
+def _identified(
+    K: DeltaComplex, options: argparse.Namespace
+) -> tuple[PeriodMatrix | PeriodEnclosure, Identification]:
+    pm = _known(K, options)
+    with stage("comparing"):
+        return pm, identify(pm, tolerance=options.mesh_error)
 
 
 def _known(K: DeltaComplex, options: argparse.Namespace) -> PeriodMatrix | PeriodEnclosure:
     """The period matrix as it is to be known: with a certificate, or in balls."""
     if options.digits is None:
-        return period_matrix(K, **chosen_options(options))
+        return computed(K, options)
     return enclose(with_exact_distances(K), digits=options.digits)

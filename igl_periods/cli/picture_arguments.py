@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
 from igl_periods.arrays import Complexes
+from igl_periods.complexes import DeltaComplex
 from igl_periods.differentials import Parametrization, most_even_form, parametrize
+from igl_periods.errors import ComplexError
 from igl_periods.meshes import MeshReport
-from igl_periods.periods import PeriodMatrix, mesh_quality, period_matrix, reduced_if_feasible
+from igl_periods.periods import PeriodMatrix, mesh_quality, reduced_if_feasible
 from igl_periods.pictures import (
     Scene,
     checkerboard_scene,
@@ -18,10 +21,23 @@ from igl_periods.pictures import (
     cycles_scene,
     density_scene,
     quality_scene,
+    surface_in_space,
 )
+from igl_periods.reports import method_in_words
 from igl_periods.run_log import stage
 
-from .arguments import Commands, add_surface_arguments, read_surfaces
+from .arguments import (
+    PERIOD_OPTIONS,
+    Commands,
+    add_memory_argument,
+    add_period_arguments,
+    add_surface_arguments,
+    chosen_options,
+    computed,
+    read_surfaces,
+    reading_options,
+)
+from .parser import Parser, refuse_without_effect
 
 _KINDS: dict[str, str] = {
     "cycles": "the canonical cycles of the reduced marking, as tubes",
@@ -32,17 +48,24 @@ _KINDS: dict[str, str] = {
 }
 
 
+# Kinds that show a form, and those that show nothing of the period matrix.
+_OF_A_FORM, _OF_THE_MESH = ("checkerboard", "density"), ("quality", "cut")
+_EVEN = "even"
+
+
 def add_picture_command(
     commands: Commands, name: str, what: str, run: Callable[[argparse.Namespace], int]
-) -> argparse.ArgumentParser:
-    """Add a command about one surface, with no arguments but those that say which."""
+) -> Parser:
+    """Add a command about one surface and its period matrix."""
     command = commands.add_parser(name, help=what, description=f"{what[0].upper()}{what[1:]}.")
     add_surface_arguments(command)
+    add_period_arguments(command)
+    add_memory_argument(command)
     command.set_defaults(run=run)
     return command
 
 
-def add_scene_arguments(command: argparse.ArgumentParser) -> None:
+def add_scene_arguments(command: Parser) -> None:
     """Add what is shown; :func:`chosen_scene` reads it."""
     command.add_argument(
         "--show",
@@ -51,57 +74,100 @@ def add_scene_arguments(command: argparse.ArgumentParser) -> None:
         help="; ".join(f"{kind}: {what}" for kind, what in _KINDS.items()),
     )
     add_form_argument(command)
+    command.checks.append(_check_scene)
 
 
-def add_form_argument(command: argparse.ArgumentParser) -> None:
+def add_form_argument(command: Parser) -> None:
     """Add the choice of a holomorphic form; :func:`chosen_parametrization` reads it."""
     command.add_argument(
         "--form",
         type=_form,
-        default="even",
+        default=_EVEN,
         metavar="even | K | C1,…,CG",
         help="the form of most even length (default); ζ_K of the reduced marking; or the one with "
         "these coefficients in terms of ζ_1, …, ζ_g (complex numbers such as 1+2j)",
     )
 
 
-def reduced_surface(options: argparse.Namespace) -> tuple[PeriodMatrix, MeshReport | None]:
-    """The period matrix of the surface that is meant, and the report of its mesh.
+def _check_scene(command: Parser, options: argparse.Namespace) -> None:
+    """Refuse what the kind of picture does not depend on."""
+    why = f"on --show {options.show}"
+    if options.show not in _OF_A_FORM:
+        refuse_without_effect(command, options, ("form",), f"{why}, which shows no form")
+    if options.show in _OF_THE_MESH:
+        names = (*PERIOD_OPTIONS, "max_memory")
+        refuse_without_effect(command, options, names, f"{why}, which shows the mesh alone")
 
-    Siegel reduced, where that is feasible.
-    """
+
+def chosen_surface(options: argparse.Namespace) -> tuple[DeltaComplex, MeshReport | None]:
+    """The surface that is meant, which has the form that is asked for, and its report."""
     (K,), report = read_surfaces(options)
-    pm = period_matrix(K)
+    _check_form(getattr(options, "form", _EVEN), K)
+    return K, report
+
+
+def reduced_matrix(K: DeltaComplex, options: argparse.Namespace) -> PeriodMatrix:
+    """The period matrix of a surface, Siegel reduced where that is feasible."""
+    pm = computed(K, options)
     with stage("Siegel reduction"):
         reduced, _ = reduced_if_feasible(pm)
-    return pm if reduced is None else reduced, report
+    return pm if reduced is None else reduced
 
 
 def chosen_scene(options: argparse.Namespace) -> Scene:
     """What is to be shown."""
-    pm = reduced_surface(options)[0]
-    if options.show == "cycles":
-        return cycles_scene(pm)
+    K, _ = chosen_surface(options)
+    surface_in_space(K)
+    if K.euler_characteristic == 2 and options.show != "quality":
+        raise ComplexError(
+            "the surface is a sphere (genus 0): it has no cycles, no forms, and needs no cut."
+        )
     if options.show == "quality":
-        return quality_scene(pm.complex, mesh_quality(pm.complex))
+        return _described(quality_scene(K, mesh_quality(K)), options, None)
+    pm = reduced_matrix(K, options)
+    if options.show == "cycles":
+        return _described(cycles_scene(pm), options, pm)
     scenes = {"checkerboard": checkerboard_scene, "density": density_scene, "cut": cut_scene}
-    return scenes[options.show](chosen_parametrization(pm, options.form))
+    scene = scenes[options.show](chosen_parametrization(pm, options.form))
+    return _described(scene, options, None if options.show == "cut" else pm)
 
 
 def chosen_parametrization(pm: PeriodMatrix, form: str | int | Complexes) -> Parametrization:
     """The map of a surface by one of its forms."""
     if isinstance(form, int):
-        if not 1 <= form <= pm.genus:
-            raise ValueError(f"there is no form ζ_{form}: the genus is {pm.genus}.")
         return parametrize(pm, np.eye(pm.genus)[form - 1])
     return parametrize(pm, most_even_form(pm) if isinstance(form, str) else form)
 
 
+def how_computed(options: argparse.Namespace, pm: PeriodMatrix | None) -> list[str]:
+    """What was said about the surface and the computation that is not usual, in sentences."""
+    return method_in_words(chosen_options(options) | reading_options(options), pm)
+
+
+def _described(scene: Scene, options: argparse.Namespace, pm: PeriodMatrix | None) -> Scene:
+    return replace(scene, caption=" ".join([scene.caption, *how_computed(options, pm)]))
+
+
+def _check_form(form: str | int | Complexes, K: DeltaComplex) -> None:
+    """Raise ValueError before anything is computed unless the surface has this form."""
+    genus = 1 - K.euler_characteristic // 2
+    if isinstance(form, int) and not 1 <= form <= genus:
+        raise ValueError(f"there is no form ζ_{form}: the genus is {genus}.")
+    if isinstance(form, np.ndarray) and form.shape != (genus,):
+        raise ValueError(
+            f"--form takes {genus} coefficients, one for each form of genus {genus}, not "
+            f"{form.size}."
+        )
+
+
 def _form(text: str) -> str | int | Complexes:
-    if text == "even" or text.isdigit():
-        return int(text) if text.isdigit() else text
+    if text == _EVEN or text.isdecimal():
+        return int(text) if text.isdecimal() else text
     try:
-        return np.array([complex(number.replace("i", "j")) for number in text.split(",")])
+        form = np.array([complex(number.replace("i", "j")) for number in text.split(",")])
+        if not (np.isfinite(form).all() and form.any()):
+            raise ValueError("coefficients are finite, and not all of them 0")
+        return form
     except ValueError as error:
         message = f"a form is 'even', a number k, or coefficients such as 1,0.5+2j; not {text!r}"
         raise argparse.ArgumentTypeError(message) from error

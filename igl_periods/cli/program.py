@@ -1,6 +1,6 @@
 """The command ``igl-periods``: parse, call, print.
 
-Exit codes: 0 the matrix was computed, 1 the mesh was refused, 2 wrong usage, 130 interrupted.
+Exit codes: 0 done, 1 a mesh was refused, 2 wrong usage, 130 interrupted.
 """
 
 from __future__ import annotations
@@ -9,19 +9,22 @@ import argparse
 import importlib.metadata
 import os
 import sys
-import warnings
 from collections.abc import Sequence
 
 from igl_periods.errors import MissingExtraError, PeriodsError
+from igl_periods.interrupts import INTERRUPTED, interrupt_as_usual
+from igl_periods.machine import require
 
 from .batch import add_batch
 from .compute import add_compute
 from .demo import add_demo
 from .enclose import add_enclose
 from .identify import add_identify
+from .parser import Parser
 from .render import add_render
 from .report import add_report
-from .terminal import refused, show_stages
+from .schema import add_schema
+from .terminal import about, refused, show_stages, warnings_told, write_readably
 from .texture import add_texture
 from .view import add_view
 
@@ -36,20 +39,29 @@ _COMMANDS = (
     add_texture,
     add_report,
     add_batch,
+    add_schema,
 )
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns the exit code."""
-    options = _parser().parse_args(arguments)
+    try:
+        interrupt_as_usual()
+        return _run(arguments)
+    except KeyboardInterrupt:
+        return refused("interrupted.", INTERRUPTED)
+
+
+def _run(arguments: Sequence[str] | None) -> int:
+    parser = _parser()
+    _complete(parser)
+    write_readably()
+    options = parser.parse_args(arguments)
     if sys.stderr.isatty() and not getattr(options, "quiet", False):
         show_stages()
     try:
-        with warnings.catch_warnings(record=True) as caught:
-            code = int(options.run(options))
-        for warning in caught:
-            print(f"igl-periods: warning: {warning.message}", file=sys.stderr)
-        return code
+        with warnings_told():
+            return int(options.run(options))
     except BrokenPipeError:
         # Whoever reads the output has had enough, as ``head`` does.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -57,16 +69,24 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except (OSError, MissingExtraError) as error:
         return refused(str(error))
     except (ValueError, PeriodsError) as error:
-        message, mesh = str(error), getattr(options, "mesh", "")
-        return refused(message if mesh in message else f"{mesh}: {message}")
+        return refused(about(getattr(options, "mesh", ""), error))
 
 
-def _parser() -> argparse.ArgumentParser:
+def _complete(parser: argparse.ArgumentParser) -> None:
+    """Answer a shell that asks how the command line goes on, and exit."""
+    if "_ARGCOMPLETE" in os.environ:
+        require("completion", "argcomplete")
+        import argcomplete
+
+        argcomplete.autocomplete(parser)
+
+
+def _parser() -> Parser:
     version = importlib.metadata.version("igl_periods")
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="igl-periods",
         description="Period matrices of triangle meshes, with certified error bounds.",
-        epilog="Exit codes: 0 done, 1 the mesh was refused, 2 wrong usage.",
+        epilog="Exit codes: 0 done, 1 a mesh was refused, 2 wrong usage, 130 interrupted.",
     )
     parser.add_argument("--version", action="version", version=f"igl-periods {version}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 
 from igl_periods.errors import RenderError
 from igl_periods.machine import require
 
-from .arguments import Commands
+from .arguments import Commands, add_output_argument, claim
 from .picture_arguments import add_picture_command, add_scene_arguments, chosen_scene
 from .terminal import refused, say
 
@@ -16,7 +15,7 @@ from .terminal import refused, say
 def add_render(commands: Commands) -> None:
     """Add the command to the parser of ``igl-periods``."""
     render = add_picture_command(commands, "render", "draw a picture of a mesh to a file", _render)
-    render.add_argument("-o", "--output", required=True, metavar="FILE", help="a PNG or JPEG file")
+    add_output_argument(render, "a PNG or JPEG picture", ".png", ".jpg", ".jpeg")
     render.add_argument(
         "--size", type=_size, default=(1200, 900), metavar="WxH", help="default: 1200x900"
     )
@@ -30,9 +29,7 @@ def _render(options: argparse.Namespace) -> int:
     from igl_periods.pictures import render, save, with_legend
 
     require("drawing", "open3d", "PIL")
-    suffix = Path(options.output).suffix.lower()
-    if suffix not in (".png", ".jpg", ".jpeg"):
-        raise ValueError(f"a picture is a PNG or JPEG file; {options.output} is neither.")
+    claim(options)
     scene = chosen_scene(options)
     try:
         save(options.output, with_legend(render(scene, options.size, options.direction), scene))

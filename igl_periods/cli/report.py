@@ -7,22 +7,25 @@ from pathlib import Path
 
 from igl_periods.machine import require
 
-from .arguments import Commands
-from .picture_arguments import add_picture_command, reduced_surface
+from .arguments import Commands, add_output_argument, claim
+from .picture_arguments import add_picture_command, chosen_surface, how_computed, reduced_matrix
 from .terminal import say
 
 
 def add_report(commands: Commands) -> None:
     """Add the command to the parser of ``igl-periods``."""
     report = add_picture_command(commands, "report", "write a page about a mesh", _report)
-    report.add_argument("-o", "--output", required=True, metavar="FILE", help="an HTML file")
+    add_output_argument(report, "an HTML page", ".html", ".htm")
 
 
 def _report(options: argparse.Namespace) -> int:
     from igl_periods.reports import write_report
 
     require("a report", "matplotlib", "open3d", "PIL")
-    pm, mesh = reduced_surface(options)
-    write_report(options.output, pm, name=Path(options.mesh).name, mesh=mesh)
+    claim(options)
+    K, mesh = chosen_surface(options)
+    pm = reduced_matrix(K, options)
+    remarks = how_computed(options, pm)
+    write_report(options.output, pm, name=Path(options.mesh).name, mesh=mesh, remarks=remarks)
     say(f"wrote {options.output}")
     return 0

@@ -6,17 +6,16 @@ Exit codes: 0 the matrix was computed, 1 the mesh was refused or a rank failed, 
 from __future__ import annotations
 
 import argparse
-import importlib.metadata
 import json
 import sys
 import traceback
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from igl_periods.cli import add_surface_arguments, read_surfaces, refused, show_stages
+from igl_periods.cli import Parser, add_surface_arguments, read_surfaces, refused, show_stages
 from igl_periods.meshes import MeshReport
 from igl_periods.periods import PeriodMatrix, reduced_if_feasible
-from igl_periods.reports import SCHEMA, result_to_json, summary
+from igl_periods.reports import document_to_json, result_to_json, summary
 
 from .collective import on_root
 from .libraries import load_petsc, world
@@ -55,8 +54,8 @@ def _parsed(comm: Intracomm, arguments: Sequence[str] | None) -> argparse.Namesp
     return comm.bcast(options)
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+def _parser() -> Parser:
+    parser = Parser(
         prog="python -m igl_periods.distributed",
         description="Compute the period matrix of one large mesh on all ranks of mpiexec.",
         epilog="Exit codes: 0 done, 1 the mesh was refused or a rank failed, 2 wrong usage.",
@@ -103,14 +102,12 @@ def _printed(options: argparse.Namespace, pm: PeriodMatrix, report: MeshReport |
     if not options.json:
         return f"{report or options.mesh}\n{summary(*result)}"
     names = ("repair", "double", "component", "delaunay", "rtol")
-    document = {
-        "schema": SCHEMA,
-        "version": importlib.metadata.version("igl_periods"),
+    body = {
         **result_to_json(*result),
         "options": {name: getattr(options, name) for name in names},
         "mesh": report.as_dict() if report else None,
     }
-    return json.dumps(document, indent=1)
+    return json.dumps(document_to_json(options.mesh, body), indent=1)
 
 
 if __name__ == "__main__":

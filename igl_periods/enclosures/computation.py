@@ -218,11 +218,6 @@ def _best_enclosure(
             goal, size = _larger(cells, solution, goal, final, 0.5 * expected + margin)
             reason = limits.exceeded_by(cells, size)
             if not reason:
-                logger.info(
-                    "next: degrees up to %d, about %.2g s",
-                    size.max(),
-                    limits.expected_seconds(size),
-                )
                 continue
         try:
             found = prove(closest)

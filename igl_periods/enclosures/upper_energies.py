@@ -3,7 +3,7 @@ r"""From energies of some forms in balls to upper bounds in a canonical basis, w
 Forms near orthonormal have energies E near 1, and radii of E that are what their bound loses.  In a
 canonical basis, B times these forms, the balls of B E Bᵀ would be larger by the condition number of
 B, entry by entry.  But only an upper bound in the sense of Loewner is wanted: with the midpoint Ê
-of E and r the largest sum of a row of radii,
+of E and r the largest sum of a row or a column of radii,
 
 .. math:: D_{exact} \le B E B^T \le B\, (\hat E + r \cdot 1)\, B^T ,
 
@@ -36,8 +36,10 @@ def upper_energies(E: ArbMat, basis: ArbMat) -> ArbMat:
         The matrix B of a basis in terms of these forms.
     """
     k = E.nrows()
-    radii = [sum((x.rad() for x in row), flint.arb(0)).upper() for row in E.tolist()]
-    # Entries of both triangles are bounds of the same number.
+    # Entries of both triangles are bounds of the same number, and the mean of their midpoints is
+    # no further from it than the mean of their radii.
+    lines = (*E.tolist(), *E.transpose().tolist())
+    radii = [sum((x.rad() for x in line), flint.arb(0)).upper() for line in lines]
     largest = max(radii, default=flint.arb(0))
     identity = ArbMat(np.eye(k, dtype=np.int64).tolist()) if k else E
     middle = E.mid()

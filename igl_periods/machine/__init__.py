@@ -1,14 +1,16 @@
 """What this machine offers: memory, threads, packages.
 
-============  =================================================================================
-``memory``    how much this process can still take, and refusing what needs more
-``threads``   one thread of linear algebra where callers work in parallel; forked processes
-``extras``    packages that only an extra of the installation brings
-============  =================================================================================
+================  ============================================================================
+``memory``        how much this process can still take, and refusing what needs more
+``threads``       one thread of linear algebra where callers work in parallel; forked processes
+``extras``        packages that only an extra of the installation brings
+``output_files``  files that are to be written, checked before anything is computed
+================  ============================================================================
 """
 
 from .memory import available_memory, release_freed_memory, require_memory
 from .threads import one_thread, without_lost_threads
+from .output_files import check_output
 from .extras import EXTRAS, missing_library, require
 
 __all__ = [
@@ -17,6 +19,7 @@ __all__ = [
     "require_memory",
     "one_thread",
     "without_lost_threads",
+    "check_output",
     "EXTRAS",
     "missing_library",
     "require",

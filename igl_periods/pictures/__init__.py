@@ -22,6 +22,7 @@ from .scenes import (
     density_scene,
     plain_scene,
     quality_scene,
+    surface_in_space,
 )
 from .rendering import check_display, render, save, show, with_legend
 from .textured_meshes import write_glb, write_obj
@@ -34,6 +35,7 @@ __all__ = [
     "plain_scene",
     "quality_scene",
     "Scene",
+    "surface_in_space",
     "check_display",
     "render",
     "save",

@@ -9,19 +9,31 @@
 ==================  ===========================================================================
 """
 
-from .words import parametrization_in_words
+from .words import method_in_words, parametrization_in_words
 from .terminal_text import LARGEST_PRINTED, summary
 from .enclosure_text import enclosure_summary, lengths_in_words
-from .json_document import SCHEMA, result_to_json
+from .json_document import (
+    SCHEMA,
+    document_to_json,
+    identification_to_json,
+    json_schema,
+    refusal_to_json,
+    result_to_json,
+)
 from .page import write_report
 
 __all__ = [
+    "method_in_words",
     "parametrization_in_words",
     "LARGEST_PRINTED",
     "summary",
     "enclosure_summary",
     "lengths_in_words",
-    "result_to_json",
     "SCHEMA",
+    "json_schema",
+    "document_to_json",
+    "refusal_to_json",
+    "result_to_json",
+    "identification_to_json",
     "write_report",
 ]

@@ -10,7 +10,7 @@ import io
 import json
 import logging
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from html import escape
 from importlib.metadata import version
 from importlib.resources import files
@@ -24,7 +24,7 @@ from igl_periods.arrays import Floats
 from igl_periods.differentials import Parametrization, most_even_form, parametrize
 from igl_periods.display import LARGEST_SHOWN, matrix_html
 from igl_periods.errors import ComplexError, RenderError
-from igl_periods.machine import require
+from igl_periods.machine import check_output, require
 from igl_periods.meshes import MeshReport
 from igl_periods.periods import MeshQuality, PeriodMatrix, mesh_quality
 from igl_periods.pictures import (
@@ -56,6 +56,7 @@ def write_report(
     *,
     name: str,
     mesh: MeshReport | None = None,
+    remarks: Sequence[str] = (),
     size: tuple[int, int] = (900, 640),
 ) -> None:
     """Write a self-contained HTML page about a surface and its period matrix.
@@ -73,6 +74,9 @@ def write_report(
         What the surface is called.
     mesh : MeshReport, optional
         What :func:`~igl_periods.load_mesh` found in its file.
+    remarks : sequence of str
+        Sentences about the surface and the computation that the page shall say at its beginning:
+        :func:`~igl_periods.reports.method_in_words`.
     size : (int, int)
         Width and height of the pictures in pixels.
 
@@ -80,7 +84,10 @@ def write_report(
     ------
     MissingExtraError
         If matplotlib, Open3D or Pillow are not installed.
+    OSError
+        If the file cannot be written, before anything is drawn.
     """
+    check_output(path)
     require("a report", "matplotlib", "open3d", "PIL")
     quality = mesh_quality(pm.complex)
     P = parametrize(pm, most_even_form(pm)) if pm.genus else None
@@ -88,6 +95,7 @@ def write_report(
     text = page.substitute(
         title=escape(name),
         facts=_facts(pm),
+        remarks=_paragraphs(list(remarks)),
         pictures=_pictures(pm, quality, P, size),
         matrix=_matrix(pm),
         mesh=f"<pre>{escape(str(mesh))}</pre>" if mesh else "<p>No mesh file was read.</p>",

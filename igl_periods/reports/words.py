@@ -5,6 +5,9 @@ Each is written here once, for the terminal, the page and whoever else shows it.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 
 from igl_periods.differentials import Parametrization
@@ -96,6 +99,47 @@ def _no_cause(quality: MeshQuality) -> str:
 def _rate(quality: MeshQuality) -> float:
     """The exponent of h with which the bound falls in the end."""
     return min(2.0, 4.0 * np.pi / float(quality.cone_angles.max()))
+
+
+def method_in_words(options: Mapping[str, Any], pm: PeriodMatrix | None = None) -> list[str]:
+    """What is not usual about a surface and the computation of its period matrix, in sentences.
+
+    Parameters
+    ----------
+    options : mapping
+        ``weights``, ``delaunay``, ``degree``, ``tolerance`` as in
+        :func:`~igl_periods.period_matrix`; ``double``, ``component`` and ``repair``.  What is
+        missing is as usual.
+    pm : PeriodMatrix, optional
+        Where it matters: what was achieved.
+    """
+    words = []
+    if options.get("repair"):
+        words.append("The mesh was repaired first.")
+    if options.get("double"):
+        words.append("The surface is the double of the one in the file; pictures show one sheet.")
+    if options.get("component") is not None:
+        words.append(f"It is component {options['component']} of several.")
+    if pm is None:
+        return words
+    if options.get("weights", "intrinsic") != "intrinsic":
+        words.append("Π is computed with extrinsic weights, measured in space: it has no bound.")
+    if not options.get("delaunay", True):
+        words.append("The triangulation is the given one, not made Delaunay.")
+    if options.get("degree", 1) != 1:
+        words.append(f"Π is computed with functions of degree {options['degree']}.")
+    if options.get("tolerance") is not None:
+        words.append(_tolerance_in_words(float(options["tolerance"]), pm))
+    return words
+
+
+def _tolerance_in_words(tolerance: float, pm: PeriodMatrix) -> str:
+    assert pm.bound is not None
+    more = ", which is more" if pm.bound > tolerance else ""
+    return (
+        f"A bound of at most {tolerance:g} was asked for; the one reached is "
+        f"{rounded_up(pm.bound)}{more}."
+    )
 
 
 def trust_in_words(pm: PeriodMatrix) -> str:

@@ -36,8 +36,14 @@ from .named_surface import NamedSurface
 _LARGEST_GENUS = 1_000_000
 
 
-def catalogue(genus: int) -> list[NamedSurface]:
-    """All named surfaces of a genus; no two of them are conformally equivalent.
+def catalogue(genus: int | None = None) -> list[NamedSurface]:
+    """Named surfaces, no two of them conformally equivalent.
+
+    Parameters
+    ----------
+    genus : int, optional
+        All of this genus; by default all up to genus 4, beyond which there are only those of the
+        two families.
 
     Raises
     ------
@@ -46,9 +52,14 @@ def catalogue(genus: int) -> list[NamedSurface]:
 
     Examples
     --------
+    >>> len(catalogue())
+    16
     >>> [surface.name for surface in catalogue(2)]
     ['Omega_1', 'Bolza curve', 'y^2 = x^5 - 1', 'Lawson xi_{2,1}']
     """
+    if genus is None:
+        largest = max(surface.genus for surface in _SINGLE)
+        return [surface for g in range(1, largest + 1) for surface in catalogue(g)]
     genus = checked_integer("genus", genus)
     if not 0 <= genus <= _LARGEST_GENUS:
         raise ValueError(f"genus = {genus}: surfaces of genus 0 to {_LARGEST_GENUS} have names.")

@@ -111,6 +111,25 @@ def test_components_are_rows_those_of_large_genus_first(tmp_path):
     assert rows[1]["mesh_report"] is None
 
 
+def test_a_torn_file_is_refused_as_a_whole(tmp_path):
+    # Every triangle has corners of its own.
+    V, F = torus_of_revolution(2.0, 0.8, 12, 8)
+    soup = V[F].reshape(-1, 3), np.arange(F.size).reshape(-1, 3)
+    igl.write_triangle_mesh(str(tmp_path / "torn.obj"), *soup)
+    (row,) = rows_of(tmp_path / "torn.obj")
+    assert row["component"] is None
+    assert row["error"].startswith("the surface is torn into 192 pieces. 576 boundary edges lie in")
+    assert "--repair" in row["error"]
+    (row,) = rows_of(tmp_path / "torn.obj", BatchOptions(repair=True))
+    assert (row["genus"], row["error"]) == (1, None)
+    # Beside a closed component the pieces are rows, as components are.
+    both = np.concatenate([V, soup[0][:9] + 9.0]), np.concatenate([F, soup[1][:3] + len(V)])
+    igl.write_triangle_mesh(str(tmp_path / "both.obj"), *both)
+    rows = rows_of(tmp_path / "both.obj")
+    assert [row["component"] for row in rows] == list(range(1, len(rows) + 1))
+    assert [row["error"] is None for row in rows][:2] == [True, False]
+
+
 def test_a_refused_component_is_a_row_beside_the_others(tmp_path):
     V, F = torus_of_revolution(2.0, 0.8, 12, 8)
     path = tmp_path / "one_open.off"
@@ -130,7 +149,8 @@ def test_repair_makes_a_surface(tmp_path):
     V, F = noisy_torus(7, 6, 0.1, 1)
     path = tmp_path / "soup.off"
     igl.write_triangle_mesh(str(path), V[F].reshape(-1, 3), np.arange(F.size).reshape(-1, 3))
-    assert len(rows_of(path)) == len(F)
+    (row,) = rows_of(path)
+    assert f"torn into {len(F)} pieces" in row["error"]
     (row,) = rows_of(path, BatchOptions(repair=True))
     assert (row["genus"], row["vertices"]) == (1, 42)
 

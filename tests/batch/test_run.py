@@ -186,6 +186,9 @@ def test_an_output_that_cannot_be_written_is_refused_at_once(tmp_path):
     (tmp_path / "x.parquet").mkdir()
     with pytest.raises(IsADirectoryError, match="is a folder"):
         run_batch({}, tmp_path / "x.parquet")
+    (tmp_path / "list.csv").write_text("a.off")
+    with pytest.raises(FileExistsError, match="would replace what is read"):
+        run_batch({"a": tmp_path / "list.csv"}, tmp_path / "list.csv")
 
 
 # ---- Clusters ----
@@ -208,8 +211,8 @@ def test_the_command_on_a_cluster(tmp_path, address, capsys):
     assert main([*command, "--degree", "2"]) == 0
     printed = capsys.readouterr()
     assert f"{output}: 4 rows of 4 files (4 computed now, 0 kept from before)" in printed.out
-    assert "1 without a period matrix" in printed.out
-    assert "1 MeshError" in printed.out
+    assert "1 file with 1 row without a period matrix" in printed.out
+    assert "  1 MeshError\n    broken.off: " in printed.out
     assert printed.err == ""
     rows = read_rows(output)
     assert [row["file"] for row in rows] == [

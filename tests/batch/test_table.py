@@ -1,5 +1,7 @@
 """The table: rows are read back bit for bit, and a file is replaced when the new one is whole."""
 
+import csv
+import json
 import os
 import stat
 
@@ -9,7 +11,7 @@ import pyarrow.parquet as pq
 import pytest
 from support.mesh_folders import TETRAHEDRON, two_tori
 
-from igl_periods.batch.rows import rows_of
+from igl_periods.batch.rows import COLUMNS, rows_of
 from igl_periods.batch.table import SCHEMA, write_rows
 
 
@@ -29,6 +31,26 @@ def test_rows_are_read_back_bit_for_bit(rows, tmp_path):
     assert len(rows) == 4
     for read, row in zip(table.to_pylist(), rows, strict=True):
         assert read == {name: row.get(name) for name in SCHEMA.names}
+
+
+def read_cell(text, kind):
+    if text == "":
+        return None
+    if kind is bool:
+        return {"True": True, "False": False}[text]
+    return kind(text) if kind in (str, int, float) else json.loads(text)
+
+
+def test_csv_holds_the_same_bit_for_bit(rows, tmp_path):
+    rows = [{**row, "error": row["error"] and 'Möbius, "open"\nand torn'} for row in rows]
+    write_rows(rows, tmp_path / "x.csv")
+    with (tmp_path / "x.csv").open(encoding="utf-8", newline="") as file:
+        names, *table = csv.reader(file)
+    assert names == list(COLUMNS)
+    assert len(table) == len(rows)
+    for cells, row in zip(table, rows):
+        read = {name: read_cell(cell, COLUMNS[name]) for name, cell in zip(names, cells)}
+        assert read == {name: row.get(name) for name in COLUMNS}
 
 
 def test_the_permissions_are_those_of_any_new_file(rows, tmp_path):

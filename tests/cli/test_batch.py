@@ -5,6 +5,7 @@ import sys
 
 import pytest
 
+from igl_periods.cli.batch import _refusals_in_words
 from igl_periods.cli.program import main
 
 
@@ -13,7 +14,6 @@ from igl_periods.cli.program import main
     [
         (["{}"], 1, "there is no mesh in the folder"),
         (["{}/nowhere"], 1, "there is no folder and no list"),
-        (["{}", "--degree", "0"], 2, "degree 1 at least"),
         (["a.off", "--scheduler", "nonsense://x"], 1, "there is no scheduler"),
     ],
 )
@@ -30,7 +30,8 @@ def test_refusals(tmp_path, capsys, arguments, code, message):
     [
         (["meshes"], "-o"),
         (["-o", "x.parquet"], "DIR"),
-        (["meshes", "-o", "x.csv"], "is a .parquet file"),
+        (["meshes", "-o", "x.xlsx"], "a table has a name in .parquet or .csv, not 'x.xlsx'"),
+        (["meshes", "-o", "x.csv", "--degree", "0"], "degree 1 at least"),
         (["meshes", "-o", "x.parquet", "--workers", "0"], "at least 1"),
         (["meshes", "-o", "x.parquet", "--workers", "2", "--scheduler", "x"], "not allowed with"),
     ],
@@ -47,3 +48,22 @@ def test_dask_and_arrow_are_imported_by_nothing_else():
     code = f"import sys, igl_periods.cli.program; print({late} & {{*sys.modules}})"
     command = [sys.executable, "-c", code]
     assert subprocess.run(command, capture_output=True, text=True, check=True).stdout == "set()\n"
+
+
+def row(file, error, kind="ComplexError", component=None):
+    return {"file": file, "error": error, "error_kind": kind, "component": component}
+
+
+def test_refused_files_are_named_and_counted_once():
+    refused = [row(f"open_{k:02d}.off", "not closed: it has 3 edges. Fill.") for k in range(12)]
+    refused += [row("two.off", "not closed.", component=k) for k in (2, 3)]
+    refused += [row("empty.off", "no faces\nat all", "MeshError")]
+    lines = _refusals_in_words(refused)
+    assert lines[:2] == [
+        "  14 files with 15 rows without a period matrix (the column 'error' says why):",
+        "  13 ComplexError",
+    ]
+    assert lines[2] == "    open_00.off: not closed: it has 3 edges"
+    assert lines[12:] == ["    … and 3 more", "  1 MeshError", "    empty.off: no faces"]
+    assert _refusals_in_words(refused[12:14])[2] == "    two.off: component 2: not closed"
+    assert _refusals_in_words([]) == []

@@ -6,21 +6,24 @@ import igl
 import numpy as np
 import pytest
 from PIL import Image
+from support.mesh_folders import TETRAHEDRON
 from support.random_surfaces import torus_of_revolution
 
 import igl_periods as ip
-from igl_periods.cli.picture_arguments import reduced_surface as _reduced
+from igl_periods.cli.picture_arguments import chosen_scene, chosen_surface, reduced_matrix
 from igl_periods.cli.program import _parser
 
 
 def test_pictures_of_high_genus_are_in_the_marking_of_the_mesh(torus, monkeypatch):
     options = _parser().parse_args(["render", str(torus), "-o", "torus.png"])
     pm = ip.period_matrix(*ip.load_mesh(torus)[:2])
-    assert np.array_equal(_reduced(options)[0].matrix, pm.reduced().matrix)
+    K, _ = chosen_surface(options)
+    assert np.array_equal(reduced_matrix(K, options).matrix, pm.reduced().matrix)
     monkeypatch.setattr("igl_periods.periods.matrix.SIEGEL_GENUS_LIMIT", 0)
-    assert np.array_equal(_reduced(options)[0].matrix, pm.matrix)
+    assert np.array_equal(reduced_matrix(K, options).matrix, pm.matrix)
 
 
+SIMPLEX = np.eye(4)[:, :3], np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]])
 LAWSON = Path(__file__).parents[2] / "data" / "lawson_2_1.off"
 
 
@@ -61,7 +64,17 @@ def test_doubles_and_components_on_the_command_line(command, tmp_path):
         (("--size", "large"), "a size is WIDTHxHEIGHT, such as 1200x900, not 'large'"),
         (("--direction", "up"), "a direction is three numbers X,Y,Z, not 'up'"),
         (("--form", "zeta"), "a form is 'even', a number k, or coefficients"),
-        (("--show", "nothing"), "invalid choice"),
+        (("--form", "0,0"), "a form is 'even', a number k, or coefficients"),
+        (("--form", "nan"), "a form is 'even', a number k, or coefficients"),
+        (("--show", "densty"), "did you mean density?"),
+        (("-o", "p.gif"), "a PNG or JPEG picture has a name in .png or .jpg or .jpeg, not 'p.gif'"),
+        (("--form", "2"), "--form has no effect on --show cycles, which shows no form"),
+        (("--form", "1,2", "--show", "cut"), "--form has no effect on --show cut"),
+        (("--degree", "2", "--show", "cut"), "--degree has no effect on --show cut, which shows"),
+        (("--tolerance", "1", "--show", "quality"), "--tolerance has no effect on --show quality"),
+        (("--max-memory", "1", "--show", "quality"), "--max-memory has no effect"),
+        (("--no-delaunay", "--show", "quality"), "--no-delaunay has no effect on --show quality"),
+        (("--degree", "2", "--tolerance", "1"), "a tolerance chooses the degree"),
     ],
 )
 def test_wrong_usage(command, capsys, arguments, message):
@@ -71,12 +84,51 @@ def test_wrong_usage(command, capsys, arguments, message):
     assert message in capsys.readouterr().err
 
 
-def test_wrong_files_and_forms(command, tmp_path):
-    with pytest.raises(ValueError, match="a picture is a PNG or JPEG file"):
-        command("render", LAWSON, "-o", tmp_path / "p.gif")
-    with pytest.raises(ValueError, match="an OBJ or GLB file"):
-        command("texture", LAWSON, "-o", tmp_path / "p.stl")
+def never(*_):
+    raise AssertionError("this should have been refused before anything is computed")
+
+
+def test_wrong_files_and_forms(command, tmp_path, monkeypatch):
+    igl.writeOBJ(str(tmp_path / "sphere.obj"), *SIMPLEX)
+    monkeypatch.setattr("igl_periods.cli.picture_arguments.computed", never)
     with pytest.raises(ValueError, match="there is no form ζ_3: the genus is 2"):
         command("render", LAWSON, "-o", tmp_path / "p.png", "--show", "density", "--form", "3")
-    with pytest.raises(ValueError, match="coefficients must be 2 finite numbers"):
+    with pytest.raises(ValueError, match=r"--form takes 2 coefficients, .* not 3"):
         command("texture", LAWSON, "-o", tmp_path / "p.obj", "--form", "1,2,3")
+    with pytest.raises(FileNotFoundError, match="there is no folder"):
+        command("render", LAWSON, "-o", tmp_path / "nowhere" / "p.png")
+    with pytest.raises(ip.ComplexError, match="no positions in space"):
+        command("render", LAWSON.with_name("omega_1.json"), "-o", tmp_path / "p.png")
+    (tmp_path / "sphere.off").write_text(TETRAHEDRON)
+    with pytest.raises(ip.ComplexError, match="sphere"):
+        command("render", tmp_path / "sphere.off", "-o", tmp_path / "p.png", "--show", "cut")
+    (tmp_path / "p.png").mkdir()
+    with pytest.raises(IsADirectoryError, match=r"p\.png' is a folder"):
+        command("texture", LAWSON, "-o", tmp_path / "p.obj")
+    with pytest.raises(FileExistsError, match="would replace what is read"):
+        command("texture", tmp_path / "sphere.obj", "-o", tmp_path / "sphere.obj")
+
+
+def test_how_a_picture_was_computed_is_in_its_caption(tmp_path):
+    def caption(*arguments):
+        options = _parser().parse_args(["render", *map(str, arguments), "-o", "p.png"])
+        return chosen_scene(options).caption
+
+    assert caption(LAWSON).endswith("counted with signs.")
+    density = ("--show", "density")
+    assert caption(LAWSON, *density, "--degree", "3").endswith("with functions of degree 3.")
+    told = caption(LAWSON, *density, "--tolerance", "1e-4")
+    assert "A bound of at most 0.0001 was asked for; the one reached is" in told
+    V, F = torus_of_revolution(2.0, 0.7, 16, 8)
+    write_surface(tmp_path / "open.off", V, F[1:])
+    assert "double of the one in the file" in caption(tmp_path / "open.off", "--double")
+
+
+def test_the_form_depends_on_the_degree():
+    """The period options have an effect on pictures of forms, so they are not refused."""
+    scenes = []
+    for degree in ("1", "3"):
+        arguments = ["-o", "p.png", "--show", "checkerboard", "--form", "1", "--degree", degree]
+        scenes.append(chosen_scene(_parser().parse_args(["render", str(LAWSON), *arguments])))
+    difference = np.abs(scenes[0].corner_uv - scenes[1].corner_uv).max()
+    assert 1e-6 < difference < 1.0

@@ -1,5 +1,6 @@
 """The command ``report``: the page that it writes, and what it refuses."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -19,3 +20,12 @@ def test_the_page_needs_a_name(command, capsys):
         command("report", DATA / "lawson_2_1.off")
     assert exit_.value.code == 2
     assert "-o" in capsys.readouterr().err
+
+
+def test_the_page_says_how_its_matrix_was_computed(command, tmp_path):
+    page = tmp_path / "page.html"
+    assert command("report", DATA / "omega_1.json", "-o", page, "--tolerance", "1e-5") == 0
+    text = page.read_text(encoding="utf-8")
+    assert "A bound of at most 1e-05 was asked for; the one reached is" in text
+    (bound,) = re.findall(r"known to within (\S+), relative to its size; no entry", text)
+    assert float(bound) <= 1.1e-5

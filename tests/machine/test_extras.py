@@ -38,7 +38,11 @@ def test_extras_are_those_of_the_installation():
     for extra, packages in EXTRAS.items():
         names = set(re.findall(r'"([\w-]+)', lists[extra]))
         assert names == {DISTRIBUTIONS.get(package, package) for package in packages}
-    assert set(re.findall(r"\w+", lists["all"].partition("[")[2])) == {"pictures", "batch"}
+    assert set(re.findall(r"\w+", lists["all"].partition("[")[2])) == {
+        "pictures",
+        "batch",
+        "completion",
+    }
     required = set(re.findall(r'^  "([\w-]+)', section("project"), re.M))
     assert required.isdisjoint(DISTRIBUTIONS.get(package, package) for package in BROUGHT)
 

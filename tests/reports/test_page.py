@@ -171,3 +171,12 @@ def browse(browser, page, folder):
     )
     complaints = [line for line in done.stderr.splitlines() if "CONSOLE" in line]
     return complaints, np.asarray(Image.open(screenshot).convert("RGB"))
+
+
+def test_remarks_are_on_the_page_and_bad_places_are_refused(tmp_path, monkeypatch):
+    pm = ip.period_matrix(flat_torus(0.2 + 1.1j, 4))
+    write_report(tmp_path / "r.html", pm, name="torus", remarks=["Bound < 1 was asked for."])
+    assert "Bound < 1 was asked for." in Page(tmp_path / "r.html").text
+    monkeypatch.setattr(report, "mesh_quality", None)
+    with pytest.raises(FileNotFoundError, match="there is no folder"):
+        write_report(tmp_path / "no" / "r.html", pm, name="torus")

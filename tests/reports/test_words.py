@@ -8,9 +8,10 @@ from support.random_surfaces import (
 )
 
 import igl_periods as ip
+from igl_periods.display import rounded_up
 from igl_periods.periods.quality import mesh_quality
-from igl_periods.reports.words import advice
-from igl_periods.surfaces import flat_torus
+from igl_periods.reports.words import advice, method_in_words
+from igl_periods.surfaces import flat_torus, square_tiled_surface
 
 
 def advice_about(K):
@@ -54,3 +55,17 @@ def test_advice_about_degenerate_triangles_and_spheres():
     )
     assert "a sphere" in advice_about(sphere)
     assert mesh_quality(sphere).bound == 0
+
+
+def test_what_is_not_usual_is_said():
+    pm = ip.period_matrix(square_tiled_surface("omega_1"), degree=4)
+    usual = {"weights": "intrinsic", "delaunay": True, "degree": 1, "tolerance": None}
+    assert method_in_words(usual, pm) == []
+    assert method_in_words({"degree": 4}, pm) == ["Π is computed with functions of degree 4."]
+    (met,), (unmet,) = (method_in_words({"tolerance": r}, pm) for r in (1.0, 1e-17))
+    assert met == f"A bound of at most 1 was asked for; the one reached is {rounded_up(pm.bound)}."
+    assert unmet.endswith(f"the one reached is {rounded_up(pm.bound)}, which is more.")
+    rest = {"repair": True, "double": True, "component": 2, "weights": "extrinsic"}
+    assert len(method_in_words({**rest, "delaunay": False}, pm)) == 5
+    # Without a matrix only the surface can be spoken of.
+    assert len(method_in_words({**rest, "degree": 4})) == 3

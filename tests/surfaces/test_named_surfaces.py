@@ -25,6 +25,12 @@ def symmetric(*rows: list) -> np.ndarray:
     return Pi
 
 
+def test_without_a_genus_all_are_listed():
+    assert [s.name for s in catalogue()] == [s.name for g in range(1, 5) for s in catalogue(g)]
+    families = ("Lawson", "y^2 = x^")
+    assert all(s.name.startswith(families) for g in range(5, 13) for s in catalogue(g))
+
+
 @pytest.mark.parametrize("genus", range(1, 7))
 def test_no_two_entries_are_the_same_surface(genus):
     entries = catalogue(genus)
