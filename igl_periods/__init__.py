@@ -22,6 +22,7 @@ page.  In reading order:
 ``moduli``         Π₁, Π₂ → equivalence, symmetries, invariants
 ``forms``          the discrete theory of the paper on Λ = Γ ⊕ Γ*
 ``differentials``  Π on the mesh → holomorphic forms, parametrization, Abel–Jacobi
+``domains``        domains with holes → capacities and extremal lengths
 ``surfaces``       reference surfaces, their exact Π, and which of them a Π is
 ``pictures``, ``reports``, ``cli``, ``batch``, ``distributed``
 =================  ============================================================================
@@ -98,6 +99,7 @@ from .differentials import (
     most_even_form,
     parametrize,
 )
+from .domains import CapacityMatrix, capacity_matrix
 from .surfaces import Identification, catalogue, identify
 
 __version__ = _version("igl_periods")
@@ -128,6 +130,9 @@ __all__ = [
     "sampled_torus",
     "Extrapolation",
     "real_structure",
+    # domains with holes
+    "capacity_matrix",
+    "CapacityMatrix",
     # the Siegel upper half-space
     "siegel_reduce",
     "siegel_transform",

@@ -34,6 +34,7 @@ Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 3.
 """
 
 from .arguments import check_options
+from .rounding import LEAST_ALLOWANCE, combined, congruence
 from .matrix import PeriodMatrix, reduced_if_feasible, siegel_reduced
 from .certificate import certified_period_matrix
 from .adaptive_degree import ToleranceWarning
@@ -46,6 +47,9 @@ from .recognition import matrix_of_complex
 
 __all__ = [
     "check_options",
+    "LEAST_ALLOWANCE",
+    "combined",
+    "congruence",
     "PeriodMatrix",
     "siegel_reduced",
     "reduced_if_feasible",
