@@ -16,7 +16,9 @@ page.  In reading order:
 ``topology``       K → integer cochains, cycles
 ``harmonic``       K, cochains → D, by linear functions
 ``elements``       K, cochains → D, by functions of high degree, conical at cone points
+``proofs``         the same energies in midpoint–radius arithmetic
 ``periods``        D → Π and its bound
+``enclosures``     Π in balls, to as many digits as are asked for
 ``symplectic``     J, integer bases, the Williamson form: what D and Π have in common
 ``siegel``         Π → γ·Π reduced
 ``moduli``         Π₁, Π₂ → equivalence, symmetries, invariants
@@ -64,6 +66,7 @@ from .periods import (
     richardson,
     sampled_torus,
 )
+from .enclosures import PeriodEnclosure, enclose
 from .siegel import (
     SIEGEL_GENUS_LIMIT,
     SiegelReduction,
@@ -123,6 +126,8 @@ __all__ = [
     "period_matrix",
     "period_matrix_from_weights",
     "PeriodMatrix",
+    "enclose",
+    "PeriodEnclosure",
     "ToleranceWarning",
     "mesh_quality",
     "refined_period_matrix",

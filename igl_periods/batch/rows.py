@@ -94,7 +94,7 @@ class BatchOptions:
     ----------
     repair, double : bool
         Repair meshes; take the doubles of the surfaces.
-    weights, delaunay, degree, tolerance
+    weights, delaunay, degree, tolerance, rigorous
         As in :func:`~igl_periods.period_matrix`.
 
     Raises
@@ -109,9 +109,10 @@ class BatchOptions:
     delaunay: bool = True
     degree: int = 1
     tolerance: float | None = None
+    rigorous: bool = False
 
     def __post_init__(self) -> None:
-        check_options(self.weights, self.degree, self.tolerance)
+        check_options(self.weights, self.degree, self.tolerance, self.rigorous)
 
     def as_json(self) -> str:
         """All options, in one order."""

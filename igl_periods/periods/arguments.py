@@ -14,7 +14,9 @@ from igl_periods.errors import ComplexError
 _LARGEST_WEIGHT = 1e100
 
 
-def check_options(weights: str, degree: int, tolerance: float | None) -> None:
+def check_options(
+    weights: str, degree: int, tolerance: float | None, rigorous: bool = False
+) -> None:
     """Refuse options of :func:`period_matrix` that have no such value or contradict each other."""
     if weights not in ("intrinsic", "extrinsic"):
         raise ValueError(f'weights must be "intrinsic" or "extrinsic", not {weights!r}.')
@@ -24,6 +26,8 @@ def check_options(weights: str, degree: int, tolerance: float | None) -> None:
         raise ValueError(f"tolerance = {tolerance}: a bound is always positive.")
     if weights == "extrinsic" and (degree != 1 or tolerance is not None):
         raise ValueError("extrinsic weights have degree 1 and no bound: leave both options away.")
+    if weights == "extrinsic" and rigorous:
+        raise ValueError("extrinsic weights have no bound that could be proved: rigorous=True.")
     if degree != 1 and tolerance is not None:
         raise ValueError("a tolerance chooses the degree: leave one of the two away.")
 
