@@ -102,7 +102,7 @@ from .differentials import (
     most_even_form,
     parametrize,
 )
-from .domains import CapacityMatrix, capacity_matrix
+from .domains import CapacityMatrix, ExtremalLength, capacity_matrix, extremal_length
 from .surfaces import Identification, catalogue, identify
 
 __version__ = _version("igl_periods")
@@ -138,6 +138,8 @@ __all__ = [
     # domains with holes
     "capacity_matrix",
     "CapacityMatrix",
+    "extremal_length",
+    "ExtremalLength",
     # the Siegel upper half-space
     "siegel_reduce",
     "siegel_transform",

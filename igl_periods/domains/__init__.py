@@ -15,6 +15,7 @@ and entry by entry.
 ``boundary_classes``  the loops, and the classes that they make on the double
 ``measures``          the functions u_i
 ``capacities``        the capacity matrix between its bounds
+``quadrilaterals``    extremal lengths between two of four sides
 ====================  =========================================================================
 
 References
@@ -26,6 +27,7 @@ Schiffer, Spencer, "Functionals of finite Riemann surfaces" (1954).
 from .boundary_classes import BoundaryLoop, boundary_loops
 from .measures import harmonic_measures
 from .capacities import Bounds, CapacityMatrix, capacity_matrix
+from .quadrilaterals import ExtremalLength, extremal_length
 
 __all__ = [
     "BoundaryLoop",
@@ -34,4 +36,6 @@ __all__ = [
     "Bounds",
     "CapacityMatrix",
     "capacity_matrix",
+    "ExtremalLength",
+    "extremal_length",
 ]

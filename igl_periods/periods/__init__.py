@@ -35,7 +35,6 @@ Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 3.
 """
 
 from .arguments import check_options
-from .rounding import LEAST_ALLOWANCE, combined, congruence
 from .matrix import PeriodMatrix, reduced_if_feasible, siegel_reduced
 from .certificate import certified_period_matrix
 from .adaptive_degree import ToleranceWarning
@@ -48,9 +47,6 @@ from .recognition import matrix_of_complex
 from .rounding import LEAST_ALLOWANCE, combined, congruence
 
 __all__ = [
-    "LEAST_ALLOWANCE",
-    "combined",
-    "congruence",
     "check_options",
     "LEAST_ALLOWANCE",
     "combined",
