@@ -102,7 +102,14 @@ from .differentials import (
     most_even_form,
     parametrize,
 )
-from .domains import CapacityMatrix, ExtremalLength, capacity_matrix, extremal_length
+from .domains import (
+    CapacityEnclosure,
+    CapacityMatrix,
+    ExtremalLength,
+    capacity_matrix,
+    enclosed_capacities,
+    extremal_length,
+)
 from .surfaces import Identification, catalogue, identify
 
 __version__ = _version("igl_periods")
@@ -138,6 +145,8 @@ __all__ = [
     # domains with holes
     "capacity_matrix",
     "CapacityMatrix",
+    "enclosed_capacities",
+    "CapacityEnclosure",
     "extremal_length",
     "ExtremalLength",
     # the Siegel upper half-space

@@ -11,12 +11,13 @@ For a plane domain it is :math:`2\, (\operatorname{Im} \Pi)^{-1}`, in the markin
 C_2 … C_n.  So both sides of :math:`J D^{-1} J^T \le D_{exact} \le D` bound it, in the Loewner order
 and entry by entry.
 
-====================  =========================================================================
-``boundary_classes``  the loops, and the classes that they make on the double
-``measures``          the functions u_i
-``capacities``        the capacity matrix between its bounds
-``quadrilaterals``    extremal lengths between two of four sides
-====================  =========================================================================
+=======================  ======================================================================
+``boundary_classes``     the loops, and the classes that they make on the double
+``measures``             the functions u_i
+``capacities``           the capacity matrix between its bounds
+``enclosed_capacities``  the same in balls, to as many digits as are asked for
+``quadrilaterals``       extremal lengths between two of four sides
+=======================  ======================================================================
 
 References
 ----------
@@ -27,6 +28,7 @@ Schiffer, Spencer, "Functionals of finite Riemann surfaces" (1954).
 from .boundary_classes import BoundaryLoop, boundary_loops
 from .measures import harmonic_measures
 from .capacities import Bounds, CapacityMatrix, capacity_matrix
+from .enclosed_capacities import CapacityEnclosure, enclosed_capacities
 from .quadrilaterals import ExtremalLength, extremal_length
 
 __all__ = [
@@ -36,6 +38,8 @@ __all__ = [
     "Bounds",
     "CapacityMatrix",
     "capacity_matrix",
+    "CapacityEnclosure",
+    "enclosed_capacities",
     "ExtremalLength",
     "extremal_length",
 ]

@@ -29,6 +29,7 @@ converge geometrically, so that 100 digits take a degree of 200 and not a finer 
 """
 
 from .enclosure import PeriodEnclosure
+from .exact_lengths import distances
 from .computation import MOST_DIGITS, enclose
 
-__all__ = ["MOST_DIGITS", "PeriodEnclosure", "enclose"]
+__all__ = ["MOST_DIGITS", "distances", "PeriodEnclosure", "enclose"]
