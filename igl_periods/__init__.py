@@ -26,7 +26,7 @@ page.  In reading order:
 ``differentials``  Π on the mesh → holomorphic forms, parametrization, Abel–Jacobi
 ``domains``        domains with holes → capacities and extremal lengths
 ``surfaces``       reference surfaces, their exact Π, and which of them a Π is
-``pictures``, ``reports``, ``cli``, ``batch``, ``distributed``
+``pictures``, ``reports``, ``cli``, ``batch``, ``distributed``, ``machine``
 =================  ============================================================================
 """
 

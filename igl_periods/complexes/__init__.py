@@ -30,6 +30,7 @@ barycentres, the double.  The surface stays what it is, and the classes go along
 ``weights``               cotangent and extrinsic weights, cone angles
 ``cochains``              closed cochains, their values along walks and sides
 ``marked_complex``        a complex with the cochains that it carries
+``diagonals``             the other diagonal of two triangles, and its rounding
 ``delaunay``              intrinsic Delaunay flips
 ``midpoint_subdivision``  every face in four, or in n²
 ``barycentre_insertion``  some faces in three
@@ -86,7 +87,7 @@ from .cochains import along_sides, primitive
 from .marked_complex import MarkedComplex
 from .delaunay import Flips, cocircularity_allowance, delaunay_flips, intrinsic_delaunay, transport
 from .midpoint_subdivision import split
-from .barycentre_insertion import insert_barycentres
+from .barycentre_insertion import insert_barycentres, is_divisible
 from .doubling import Involution, double, involution, lift
 
 __all__ = [
@@ -148,6 +149,7 @@ __all__ = [
     "transport",
     "split",
     "insert_barycentres",
+    "is_divisible",
     "double",
     "involution",
     "lift",
