@@ -101,6 +101,8 @@ def _document(
         surfaces["mesh_marking"]["real_structure"] = real_structure(results[0][0]).tolist()
     names = ("repair", "double", "component", "reduce")
     given = {name: getattr(options, name) for name in names} | repair_options(options)
+    if options.lattice is not None:
+        given["lattice"] = options.lattice
     return {
         "schema": SCHEMA,
         "version": importlib.metadata.version("igl_periods"),

@@ -15,6 +15,7 @@ from collections.abc import Sequence
 from igl_periods.errors import MissingExtraError, PeriodsError
 
 from .batch import add_batch
+from .capacity import add_capacity
 from .compute import add_compute
 from .demo import add_demo
 from .identify import add_identify
@@ -29,6 +30,7 @@ _COMMANDS = (
     add_demo,
     add_compute,
     add_identify,
+    add_capacity,
     add_render,
     add_view,
     add_texture,
