@@ -17,6 +17,7 @@ and entry by entry.
 ``capacities``           the capacity matrix between its bounds
 ``enclosed_capacities``  the same in balls, to as many digits as are asked for
 ``quadrilaterals``       extremal lengths between two of four sides
+``slit_maps``            conformal maps onto annuli and rectangles with slits
 =======================  ======================================================================
 
 References
@@ -30,6 +31,7 @@ from .measures import harmonic_measures
 from .capacities import Bounds, CapacityMatrix, capacity_matrix
 from .enclosed_capacities import CapacityEnclosure, enclosed_capacities
 from .quadrilaterals import ExtremalLength, extremal_length
+from .slit_maps import SlitMap, circular_slit_map, parallel_slit_map, radial_slit_map
 
 __all__ = [
     "BoundaryLoop",
@@ -42,4 +44,8 @@ __all__ = [
     "enclosed_capacities",
     "ExtremalLength",
     "extremal_length",
+    "SlitMap",
+    "circular_slit_map",
+    "radial_slit_map",
+    "parallel_slit_map",
 ]

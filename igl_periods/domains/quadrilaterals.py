@@ -116,17 +116,28 @@ def extremal_length(
     >>> round(h.value, 12), h.bounds[0] <= 1.5 <= h.bounds[1]
     (1.5, True)
     """
+    mirrors, chosen = insulated_sides(K, corners)
+    C = capacity_matrix(
+        double(K, along=mirrors), tolerance=tolerance, degree=degree, max_unknowns=max_unknowns
+    )
+    return ExtremalLength(chosen, C)
+
+
+def insulated_sides(K: DeltaComplex, corners: ArrayLike) -> tuple[Ints, Ints]:
+    """The half-edges of the boundary that are on no electrode of a quadrilateral, and its corners.
+
+    Raises
+    ------
+    ComplexError
+        As for :func:`extremal_length`.
+    """
     chosen = _checked_corners(corners)
     loop, place = _places(K, boundary_loops(K), chosen)
     insulated = np.ones(K.twin.size, dtype=bool)
     n = loop.half_edges.size
     for start, end in ((place[0], place[1]), (place[2], place[3])):
         insulated[loop.half_edges[(start + np.arange((end - start) % n)) % n]] = False
-    mirrors = np.flatnonzero(insulated & (K.twin.ravel() < 0))
-    C = capacity_matrix(
-        double(K, along=mirrors), tolerance=tolerance, degree=degree, max_unknowns=max_unknowns
-    )
-    return ExtremalLength(chosen, C)
+    return np.flatnonzero(insulated & (K.twin.ravel() < 0)), chosen
 
 
 def _checked_corners(corners: ArrayLike) -> Ints:
