@@ -15,7 +15,7 @@ and entry by entry.
 ``boundary_classes``     the loops, and the classes that they make on the double
 ``measures``             the functions u_i
 ``capacities``           the capacity matrix between its bounds
-``enclosed_capacities``  the same in balls, to as many digits as are asked for
+``capacity_balls``       the same in balls, to as many digits as are asked for
 ``quadrilaterals``       extremal lengths between two of four sides
 ``slit_maps``            conformal maps onto annuli and rectangles with slits
 =======================  ======================================================================
@@ -29,7 +29,7 @@ Schiffer, Spencer, "Functionals of finite Riemann surfaces" (1954).
 from .boundary_classes import BoundaryLoop, boundary_loops
 from .measures import harmonic_measures
 from .capacities import Bounds, CapacityMatrix, capacity_matrix
-from .enclosed_capacities import CapacityEnclosure, enclosed_capacities
+from .capacity_balls import CapacityEnclosure, enclosed_capacities
 from .quadrilaterals import ExtremalLength, extremal_length
 from .slit_maps import SlitMap, circular_slit_map, parallel_slit_map, radial_slit_map
 

@@ -48,7 +48,6 @@ from .recognition import matrix_of_complex
 from .rounding import LEAST_ALLOWANCE, combined, congruence
 
 __all__ = [
-    "check_options",
     "LEAST_ALLOWANCE",
     "combined",
     "congruence",

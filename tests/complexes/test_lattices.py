@@ -161,3 +161,20 @@ def test_other_refusals():
     V, F = cell(40, 40, [1, 0], [0, 1])
     with pytest.raises(ip.MeshError, match="chain of vertices"):
         ip.DeltaComplex.from_mesh(V, F, lattice=np.eye(2), tolerance=0.03)
+
+
+def test_effective_conductivity_of_a_corrugated_sheet():
+    # A unit cell z = h(x): along x currents run the length ℓ of the profile, across they have the
+    # width ℓ.  Conductivities 1/ℓ and ℓ are the energies D of the unit fields dx and dy: Π = iℓ.
+    V, F = cell(12, 5, [1, 0, 0], [0, 1, 0])
+    V[:, 2] = 0.2 * np.sin(2 * np.pi * V[:, 0]) + 0.1 * np.cos(4 * np.pi * V[:, 0])
+    profile = V.reshape(13, 6, 3)[:, 0]
+    length = np.linalg.norm(np.diff(profile, axis=0), axis=1).sum()
+    K = ip.DeltaComplex.from_mesh(V, F, lattice=[[1, 0, 0], [0, 1, 0]])
+    pm = ip.period_matrix(K).reduced()
+    assert pm.matrix[0, 0] == pytest.approx(1j * length, abs=1e-10)
+    assert np.allclose(np.sort(np.diag(pm.dirichlet)), [1 / length, length], atol=1e-10)
+    # Bumps in both directions: conductivities still have the product 1 (Keller, Dykhne).
+    V[:, 2] += 0.1 * np.sin(2 * np.pi * (V[:, 1] + V[:, 0]))
+    bumpy = ip.period_matrix(ip.DeltaComplex.from_mesh(V, F, lattice=np.eye(3)[:2]), degree=6)
+    assert np.linalg.det(bumpy.dirichlet) == pytest.approx(1, abs=2 * bumpy.bound)

@@ -10,7 +10,7 @@ from support.random_surfaces import noisy_torus
 
 import igl_periods as ip
 from igl_periods.domains.capacities import capacity_matrix
-from igl_periods.domains.enclosed_capacities import enclosed_capacities
+from igl_periods.domains.capacity_balls import enclosed_capacities
 from igl_periods.surfaces import planar_domain
 
 
