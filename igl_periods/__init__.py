@@ -24,6 +24,7 @@ page.  In reading order:
 ``moduli``         Π₁, Π₂ → equivalence, symmetries, invariants
 ``forms``          the discrete theory of the paper on Λ = Γ ⊕ Γ*
 ``differentials``  Π on the mesh → holomorphic forms, parametrization, Abel–Jacobi
+``domains``        domains with holes → capacities and extremal lengths
 ``surfaces``       reference surfaces, their exact Π, and which of them a Π is
 ``pictures``, ``reports``, ``cli``, ``batch``, ``distributed``, ``machine``
 =================  ============================================================================
@@ -105,6 +106,14 @@ from .differentials import (
     most_even_form,
     parametrize,
 )
+from .domains import (
+    CapacityEnclosure,
+    CapacityMatrix,
+    ExtremalLength,
+    capacity_matrix,
+    enclosed_capacities,
+    extremal_length,
+)
 from .surfaces import Identification, catalogue, identify
 
 __version__ = _version("igl_periods")
@@ -137,6 +146,13 @@ __all__ = [
     "sampled_torus",
     "Extrapolation",
     "real_structure",
+    # domains with holes
+    "capacity_matrix",
+    "CapacityMatrix",
+    "enclosed_capacities",
+    "CapacityEnclosure",
+    "extremal_length",
+    "ExtremalLength",
     # the Siegel upper half-space
     "siegel_reduce",
     "siegel_transform",

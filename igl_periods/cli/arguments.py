@@ -47,6 +47,7 @@ def add_surface_arguments(command: Parser, several: bool = False) -> None:
     command.checks.append(_check_repair)
     add_reading_arguments(command)
     add_repair_arguments(command)
+    add_lattice_argument(command)
     command.add_argument(
         "--component",
         type=_component if several else int,
@@ -85,6 +86,17 @@ def add_repair_arguments(command: Parser) -> None:
         type=_size,
         metavar="SIZE",
         help="repair, and fill holes of at most SIZE edges",
+    )
+
+
+def add_lattice_argument(command: Parser) -> None:
+    """Add the translations by which a cell is glued; :func:`read_complex` does that."""
+    command.add_argument(
+        "--lattice",
+        type=_translations,
+        metavar="X,Y,Z;…",
+        help="the mesh is a cell of a periodic surface: glue its boundary by one to three "
+        "translations, as in '1,0,0;0,1,0'",
     )
 
 
@@ -160,7 +172,7 @@ def chosen_options(options: argparse.Namespace) -> dict[str, Any]:
 def reading_options(options: argparse.Namespace) -> dict[str, Any]:
     """What decides about the surface that is meant, as far as it was said."""
     given = {name: getattr(options, name) for name in ("repair", "double", "component")}
-    how_far = {"weld": options.weld, "fill_holes": options.fill_holes}
+    how_far = {name: getattr(options, name) for name in ("weld", "fill_holes", "lattice")}
     return given | {name: value for name, value in how_far.items() if value is not None}
 
 
@@ -192,12 +204,8 @@ def read_surfaces(options: argparse.Namespace) -> tuple[list[DeltaComplex], Mesh
     ValueError
         If one of them is not closed, oriented and connected, with the way out and the report.
     """
-    how = {"weld": options.weld, "largest_hole": options.fill_holes}
-    chosen = {name: value for name, value in how.items() if value is not None}
-    with stage("reading the file"):
-        surface, report = read_surface(options.mesh, options.repair or bool(chosen), **chosen)
+    K, report = read_complex(options)
     try:
-        K = as_complex(*surface)
         surfaces = _chosen_surfaces(K, options)
         for part in surfaces:
             check_surface(part)
@@ -208,6 +216,28 @@ def read_surfaces(options: argparse.Namespace) -> tuple[list[DeltaComplex], Mesh
     if options.double and report and report.result.seam_edges:
         warnings.warn(f"the double of a torn surface: {way_out(report)}", stacklevel=2)
     return surfaces, report
+
+
+def read_complex(options: argparse.Namespace) -> tuple[DeltaComplex, MeshReport | None]:
+    """What a file holds, with its cells glued, and the report of a mesh; it may have a boundary.
+
+    Raises
+    ------
+    ValueError
+        If it is no surface, with the way out and the report.
+    """
+    how = {"weld": options.weld, "largest_hole": options.fill_holes}
+    chosen = {name: value for name, value in how.items() if value is not None}
+    with stage("reading the file"):
+        surface, report = read_surface(options.mesh, options.repair or bool(chosen), **chosen)
+    try:
+        if options.lattice is not None:
+            return DeltaComplex.from_mesh(*surface, lattice=options.lattice), report
+        return as_complex(*surface), report
+    except (MeshError, ComplexError) as error:
+        if report is None:
+            raise
+        raise type(error)(_explained(error, report)) from error
 
 
 def _explained(error: Exception, report: MeshReport) -> str:
@@ -250,6 +280,15 @@ def _part(text: str) -> float:
     if not 0.0 <= value < 0.01:
         raise argparse.ArgumentTypeError(f"a part of the diagonal from 0 to 0.01, not {text}")
     return value
+
+
+def _translations(text: str) -> list[list[float]]:
+    try:
+        return [[float(x) for x in row.split(",")] for row in text.split(";")]
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(
+            f"translations as in '1,0,0;0,1,0', not {text!r}"
+        ) from error
 
 
 def _size(text: str) -> int:

@@ -16,6 +16,7 @@ from igl_periods.interrupts import INTERRUPTED, interrupt_as_usual
 from igl_periods.machine import require
 
 from .batch import add_batch
+from .capacity import add_capacity
 from .compute import add_compute
 from .demo import add_demo
 from .enclose import add_enclose
@@ -34,6 +35,7 @@ _COMMANDS = (
     add_compute,
     add_enclose,
     add_identify,
+    add_capacity,
     add_render,
     add_view,
     add_texture,

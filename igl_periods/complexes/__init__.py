@@ -21,6 +21,7 @@ barycentres, the double.  The surface stays what it is, and the classes go along
 ``checked_arrays``        positions, faces and lengths as callers hand them over
 ``gluings``               which side is glued to which: twins, vertices, components
 ``glued_squares``         unit squares glued along sides, and grids of them
+``lattices``              cells of periodic surfaces, glued by translations
 ``delta_complex``         the complex itself
 ``mesh_readers``          who knows how to read a mesh that is no V, F
 ``surface_arguments``     whatever is called a surface, as a complex
@@ -70,6 +71,7 @@ from .exact_lengths import (
     lattice_length,
     root_of,
 )
+from .lattices import LatticeGluing, checked_lattice, lattice_gluing
 from .mesh_readers import is_array_like, mesh_reader
 from .delta_complex import DeltaComplex
 from .surface_arguments import (
@@ -119,6 +121,9 @@ __all__ = [
     "is_orientable",
     "is_array_like",
     "mesh_reader",
+    "LatticeGluing",
+    "checked_lattice",
+    "lattice_gluing",
     "DeltaComplex",
     "BYTES_A_FACE_FLIPPING",
     "SurfaceLike",

@@ -43,6 +43,7 @@ from numpy.typing import ArrayLike, NDArray
 from igl_periods.arrays import Floats, Ints, ReadOnlyArrays
 from igl_periods.display import counted, facts_html
 from igl_periods.errors import MeshError
+from igl_periods.run_log import logger
 
 from .checked_arrays import (
     check_equal_when_glued,
@@ -55,15 +56,17 @@ from .checked_arrays import (
 from .exact_lengths import ExactLengths, by_kind, root_of
 from .glued_squares import squares
 from .gluings import (
+    check_fans,
     checked_same,
     checked_twin,
+    compressed,
     corner_vertices,
     face_components,
-    fans_are_whole,
     first_half,
     reversing_sides,
     twins_of_faces,
 )
+from .lattices import lattice_gluing
 from .mesh_readers import vertices_and_faces
 from .surface_checks import check_surface, topology_in_words
 from .triangles import mollify
@@ -141,7 +144,14 @@ class DeltaComplex(ReadOnlyArrays):
         return facts_html("DeltaComplex", facts)
 
     @classmethod
-    def from_mesh(cls, V: SurfaceLike | ArrayLike, F: ArrayLike | None = None) -> DeltaComplex:
+    def from_mesh(
+        cls,
+        V: SurfaceLike | ArrayLike,
+        F: ArrayLike | None = None,
+        *,
+        lattice: ArrayLike | None = None,
+        tolerance: float = 1e-6,
+    ) -> DeltaComplex:
         """Make the polyhedral surface of a triangle mesh.
 
         Parameters
@@ -152,22 +162,31 @@ class DeltaComplex(ReadOnlyArrays):
         F : (m, 3) array-like of int
             Corners of each triangle, as rows of ``V``.  Two faces are glued where they share two
             corners.
+        lattice : (k, d) array-like, optional
+            One to three translations: the mesh is a cell of a periodic surface, and the complex the
+            quotient (:mod:`igl_periods.complexes.lattices`), whose vertices have no positions.
+        tolerance : float
+            How far corners may be from being translates, in parts of the shortest translation.
 
         Raises
         ------
         MeshError
             If the arrays have a wrong shape or type, coordinates are not finite, an index is out
-            of range, a face repeats a vertex, an edge has more than two faces, or the faces at a
-            vertex form more than one fan.
+            of range, a face repeats a vertex, an edge has more than two faces, the faces at a
+            vertex form more than one fan, or the lattice glues nothing.
         ComplexError
             If a triangle is degenerate beyond what mollification mends.
         """
         mesh = V if isinstance(V, DeltaComplex) else vertices_and_faces(V, F)
         if isinstance(mesh, DeltaComplex):
+            if lattice is not None:
+                raise MeshError("a lattice glues a mesh with positions, V and F, not a complex.")
             return mesh
         positions = checked_positions(mesh[0])
         faces = checked_faces(mesh[1], len(positions))
         check_finite(positions, faces)
+        if lattice is not None:
+            return _quotient(positions, faces, lattice, tolerance)
         lengths = igl.edge_lengths(positions, faces)
         return _from_simplicial(lengths, faces, positions)
 
@@ -324,11 +343,20 @@ def _assemble(
 
 
 def _from_simplicial(lengths: Floats, faces: Ints, positions: Floats | None) -> DeltaComplex:
-    labels, corner_vertex = _compressed(faces)
+    labels, corner_vertex = compressed(faces)
     twin, same = twins_of_faces(corner_vertex, labels)
-    _check_fans(twin, same, corner_vertex, labels)
+    check_fans(twin, same, corner_vertex, labels)
     K = _assemble(lengths, twin, same, corner_vertex)
     return replace(K, labels=labels, positions=None if positions is None else positions[labels])
+
+
+def _quotient(V: Floats, F: Ints, lattice: ArrayLike, tolerance: float) -> DeltaComplex:
+    glued = lattice_gluing(V, F, lattice, tolerance)
+    logger.info("the lattice glued %d edges, gap %.2g", glued.n_glued, glued.gap)
+    K = _assemble(glued.lengths, glued.twin, glued.same)
+    labels = np.full(K.n_vertices, len(V), dtype=np.int64)
+    np.minimum.at(labels, K.corner_vertex, F)
+    return replace(K, labels=labels)
 
 
 def _restricted(K: DeltaComplex, chosen: Ints, new_face: Ints) -> DeltaComplex:
@@ -336,7 +364,7 @@ def _restricted(K: DeltaComplex, chosen: Ints, new_face: Ints) -> DeltaComplex:
     old = K.twin[chosen]
     twin = np.where(old >= 0, 3 * new_face[old // 3] + old % 3, -1)
     reversing = (old >= 0) & (K.sign[chosen] == K.sign.ravel()[old])
-    vertices, corner_vertex = _compressed(K.corner_vertex[chosen])
+    vertices, corner_vertex = compressed(K.corner_vertex[chosen])
     part = _assemble(K.lengths[chosen], twin, reversing, corner_vertex)
     return replace(
         part,
@@ -345,19 +373,6 @@ def _restricted(K: DeltaComplex, chosen: Ints, new_face: Ints) -> DeltaComplex:
         mollification=K.mollification,
         distortion=None if K.distortion is None else K.distortion[chosen],
     )
-
-
-def _compressed(indices: Ints) -> tuple[Ints, Ints]:
-    """The sorted indices that occur, and the array renumbered by them."""
-    if indices.max() > 4 * indices.size:
-        present, compact = np.unique(indices, return_inverse=True)
-        return present, compact.reshape(indices.shape)
-    used = np.zeros(int(indices.max()) + 1, dtype=bool)
-    used[indices] = True
-    present = np.flatnonzero(used)
-    if present.size == used.size:
-        return present, indices
-    return present, (np.cumsum(used) - 1)[indices]
 
 
 def _glued_lengths(lengths: Floats, twin: Ints) -> Floats:
@@ -369,21 +384,3 @@ def _glued_lengths(lengths: Floats, twin: Ints) -> Floats:
         return lengths
     check_equal_when_glued(lengths, twin, "lengths")
     return 0.5 * (lengths + other)
-
-
-def _check_fans(twin: Ints, same: NDArray[np.bool_], corner_vertex: Ints, labels: Ints) -> None:
-    """Raise if the faces at some vertex form more than one fan."""
-    if twin.min() >= 0 and not same.any() and fans_are_whole(twin, corner_vertex, labels.size):
-        return
-    fan, n_fans = corner_vertices(twin, same)
-    if n_fans == labels.size:
-        return
-    vertex_of_fan = np.empty(n_fans, dtype=np.int64)
-    vertex_of_fan[fan] = corner_vertex
-    count = np.bincount(vertex_of_fan, minlength=labels.size)
-    bad = np.flatnonzero(count > 1)
-    raise MeshError(
-        f"{bad.size} vertices join more than one fan of faces; the first, vertex {labels[bad[0]]}, "
-        f"joins {count[bad[0]]}. The surface pinches there: split such vertices, one copy per fan "
-        "(load_mesh(…, repair=True), --repair)."
-    )

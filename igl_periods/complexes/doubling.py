@@ -8,7 +8,8 @@ Take two copies of every face, the second one with the reversed orientation.  Gl
 
 The result is closed and oriented, whatever the surface was, and exchanging the copies is an
 isometry σ of it that reverses the orientation.  The surface is the quotient by σ, its boundary
-the fixed points.  What that means for the period matrix: :mod:`igl_periods.periods.real_surfaces`.
+the fixed points.  Where only a part of the boundary is glued to its copy, the rest is the boundary
+of the result.  What that means for the period matrix: :mod:`igl_periods.periods.real_surfaces`.
 
 References
 ----------
@@ -20,13 +21,14 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
-from igl_periods.arrays import Ints, ReadOnlyArrays
+from igl_periods.arrays import Bools, Ints, ReadOnlyArrays
 from igl_periods.display import arrays_repr
 from igl_periods.errors import ComplexError
 
+from .checked_arrays import checked_array
 from .delta_complex import DeltaComplex
 from .gluings import reversing_sides
 from .half_edges import forward_half_edges
@@ -68,7 +70,7 @@ class Involution(ReadOnlyArrays):
 
 
 @of_a_surface
-def double(K: DeltaComplex) -> DeltaComplex:
+def double(K: DeltaComplex, *, along: ArrayLike | None = None) -> DeltaComplex:
     """The complex double of a surface: closed, oriented, with an orientation-reversing isometry.
 
     Parameters
@@ -76,6 +78,9 @@ def double(K: DeltaComplex) -> DeltaComplex:
     K : surface
         As for :func:`~igl_periods.period_matrix`, with or without boundary, orientable
         or not, oriented consistently or not.
+    along : (k,) array-like of int, optional
+        Half-edges ``3 f + s`` of the boundary, the only ones that are glued to their copies; by
+        default all of them.
 
     Returns
     -------
@@ -85,6 +90,11 @@ def double(K: DeltaComplex) -> DeltaComplex:
         ``K`` is connected and has a boundary or is not orientable; the double of a closed
         orientable surface is that surface and its mirror image, see
         :meth:`DeltaComplex.components`.
+
+    Raises
+    ------
+    ComplexError
+        If ``along`` names what is no half-edge of the boundary.
 
     Examples
     --------
@@ -98,8 +108,9 @@ def double(K: DeltaComplex) -> DeltaComplex:
     other = K.twin.ravel()
     reversing = reversing_sides(K.twin, K.sign).ravel()
     twin = np.empty(2 * first.size, dtype=np.int64)
-    twin[first] = np.where(other < 0, copy[first], np.where(reversing, copy[other], other))
-    twin[copy[first]] = copy[twin[first]]
+    mirror = copy[first] if along is None else np.where(_mirrors(K, along), copy[first], -1)
+    twin[first] = np.where(other < 0, mirror, np.where(reversing, copy[other], other))
+    twin[copy[first]] = np.where(twin[first] < 0, -1, copy[twin[first]])
     lengths = np.concatenate([K.lengths, K.lengths[:, _MIRROR]])
     doubled = DeltaComplex.from_gluing(lengths, twin.reshape(-1, 3))
     below = np.empty(doubled.n_vertices, dtype=np.int64)
@@ -110,6 +121,20 @@ def double(K: DeltaComplex) -> DeltaComplex:
         positions=None if K.positions is None else K.positions[below],
         mollification=K.mollification,
     )
+
+
+def _mirrors(K: DeltaComplex, along: ArrayLike) -> Bools:
+    """Mask of the half-edges at which the sheets are glued to each other; (3 m,)."""
+    chosen = np.atleast_1d(checked_array(along, "along", ComplexError))
+    free = K.twin.ravel() < 0
+    if chosen.size and chosen.dtype.kind not in "iu":
+        raise ComplexError(f"along must be half-edges 3 f + s, integers, not {chosen.dtype}.")
+    wrong = [h for h in chosen.tolist() if not (0 <= h < free.size and free[h])]
+    if wrong:
+        raise ComplexError(f"half-edge {wrong[0]} of along is no side of the boundary.")
+    glued = np.zeros(free.size, dtype=bool)
+    glued[chosen.astype(np.int64)] = True
+    return glued
 
 
 def lift(K: DeltaComplex, doubled: DeltaComplex, cochains: csr_array) -> csr_array:

@@ -229,3 +229,34 @@ def orientable_faces(twin: Ints, same: Bools) -> Bools:
         np.concatenate([here, here + m]), np.concatenate([there + swap, there + m - swap]), 2 * m
     )
     return np.asarray(sheet[:m] != sheet[m:])
+
+
+def check_fans(twin: Ints, same: Bools, corner_vertex: Ints, labels: Ints) -> None:
+    """Raise if the faces at some vertex form more than one fan."""
+    if twin.min() >= 0 and not same.any() and fans_are_whole(twin, corner_vertex, labels.size):
+        return
+    fan, n_fans = corner_vertices(twin, same)
+    if n_fans == labels.size:
+        return
+    vertex_of_fan = np.empty(n_fans, dtype=np.int64)
+    vertex_of_fan[fan] = corner_vertex
+    count = np.bincount(vertex_of_fan, minlength=labels.size)
+    bad = np.flatnonzero(count > 1)
+    raise MeshError(
+        f"{bad.size} vertices join more than one fan of faces; the first, vertex {labels[bad[0]]}, "
+        f"joins {count[bad[0]]}. The surface pinches there: split such vertices, one copy per fan "
+        "(load_mesh(…, repair=True), --repair)."
+    )
+
+
+def compressed(indices: Ints) -> tuple[Ints, Ints]:
+    """The sorted indices that occur, and the array renumbered by them."""
+    if indices.max() > 4 * indices.size:
+        present, compact = np.unique(indices, return_inverse=True)
+        return present, compact.reshape(indices.shape)
+    used = np.zeros(int(indices.max()) + 1, dtype=bool)
+    used[indices] = True
+    present = np.flatnonzero(used)
+    if present.size == used.size:
+        return present, indices
+    return present, (np.cumsum(used) - 1)[indices]

@@ -12,6 +12,8 @@ Wente's tori                 ``wente_torus``
 Lawson's minimal surfaces    ``lawson_surface``, ``lawson_surface_jittered``,
                              ``lawson_surface_voronoi``, ``lawson_surface_poor``, ``stereographic``
 cyclic covers of the sphere  ``cyclic_cover``
+triply periodic surfaces     ``triply_periodic_minimal_surface``
+plane domains with holes     ``planar_domain``
 very high genus              ``thickened_lattice``, ``menger_sponge``, ``voxel_surface``
 ===========================  ======================================================================
 """
@@ -34,6 +36,8 @@ from .lawson.unstructured import (
 )
 from .lawson.periods import lawson_period_matrix, lawson_period_matrix_in
 from .cyclic_covers import cyclic_cover
+from .minimal_periodic import PeriodicMesh, triply_periodic_minimal_surface
+from .planar_domains import planar_domain
 from .subdivision import subdivide
 from .cube_solids import menger_sponge, thickened_lattice
 from .voxels import voxel_surface
@@ -66,6 +70,9 @@ __all__ = [
     "lawson_period_matrix",
     "lawson_period_matrix_in",
     "cyclic_cover",
+    "PeriodicMesh",
+    "triply_periodic_minimal_surface",
+    "planar_domain",
     "subdivide",
     "menger_sponge",
     "thickened_lattice",

@@ -228,7 +228,7 @@ _SINGLE = (
         exact.fermat,
     ),
     NamedSurface(
-        "Schwarz P surface",
+        "Schwarz P and D surfaces and gyroid",
         ("y^2 = x^8 + 14 x^4 + 1", "Schwarz D surface", "gyroid", "regular map {4,6} of genus 3"),
         3,
         "Gauss-Chebyshev quadrature, 15 digits",

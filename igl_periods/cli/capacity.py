@@ -1,0 +1,100 @@
+"""The command ``capacity``: capacities of the boundary loops of a mesh or of a plane domain."""
+
+from __future__ import annotations
+
+import argparse
+import importlib.metadata
+import json
+from pathlib import Path
+from typing import Any
+
+from igl_periods.complexes import DeltaComplex
+from igl_periods.domains import CapacityMatrix, capacity_matrix
+from igl_periods.errors import MeshError
+from igl_periods.surfaces import planar_domain
+
+from .arguments import (
+    Commands,
+    add_lattice_argument,
+    add_reading_arguments,
+    add_repair_arguments,
+    read_complex,
+)
+from .terminal import say
+
+_TOLERANCE = 1e-6
+
+
+def add_capacity(commands: Commands) -> None:
+    """Add the command to the parser of ``igl-periods``."""
+    command = commands.add_parser(
+        "capacity",
+        help="capacities of the boundary loops of a mesh, or of a polygon with holes",
+        description="Compute the capacity matrix of the boundary loops of a surface, between two "
+        "proved bounds.",
+    )
+    command.add_argument(
+        "mesh", metavar="MESH", help="a mesh with a boundary, or a polygon with holes (.geojson)"
+    )
+    add_reading_arguments(command)
+    add_repair_arguments(command)
+    add_lattice_argument(command)
+    command.add_argument(
+        "--tolerance",
+        type=float,
+        default=_TOLERANCE,
+        metavar="R",
+        help=f"raise the degree until the relative bound is at most R ({_TOLERANCE:g})",
+    )
+    command.add_argument("--json", action="store_true", help="print one JSON document")
+    command.set_defaults(run=_capacity)
+
+
+def _capacity(options: argparse.Namespace) -> int:
+    is_polygon = options.mesh.lower().endswith(".geojson")
+    K = _domain(options.mesh) if is_polygon else read_complex(options)[0]
+    C = capacity_matrix(K, tolerance=options.tolerance)
+    if options.json:
+        say(json.dumps(_document(C), indent=1))
+        return 0
+    say(repr(C))
+    for k, loop in enumerate(C.loops):
+        say(f"loop {k + 1}: {loop!r}, length {loop.length:.6g}")
+    return 0
+
+
+def _domain(path: str) -> DeltaComplex:
+    """The polygon of a GeoJSON file: a geometry, a feature, or a collection of one feature."""
+    try:
+        geometry = json.loads(Path(path).read_text(encoding="utf-8"))
+        geometry = geometry["features"][0] if "features" in geometry else geometry
+        geometry = geometry.get("geometry", geometry)
+        if geometry["type"] != "Polygon":
+            raise MeshError(f"the first geometry is a {geometry['type']}: a Polygon is needed.")
+        outer, *holes = geometry["coordinates"]
+    except (KeyError, IndexError, TypeError, AttributeError, json.JSONDecodeError) as error:
+        raise MeshError(f"this is no GeoJSON file with a polygon ({error}).") from error
+    return DeltaComplex.from_mesh(*planar_domain(outer, holes))
+
+
+def _document(C: CapacityMatrix) -> dict[str, Any]:
+    low, high = C.entry_bounds
+    return {
+        "schema": 1,
+        "kind": "capacity matrix",
+        "version": importlib.metadata.version("igl_periods"),
+        "matrix": C.matrix.tolist(),
+        "lower": low.tolist(),
+        "upper": high.tolist(),
+        "loewner": {"lower": C.bounds.lower.tolist(), "upper": C.bounds.upper.tolist()},
+        "resistances": C.resistances.tolist(),
+        "bound": C.period_matrix.bound,
+        "loops": [
+            {
+                "vertices": C.complex.labels[loop.vertices].tolist(),
+                "length": loop.length,
+                "point": None if loop.point is None else loop.point.tolist(),
+            }
+            for loop in C.loops
+        ],
+    }
