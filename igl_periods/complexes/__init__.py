@@ -28,6 +28,8 @@ barycentres, the double.  The surface stays what it is, and the classes go along
 ``cochains``              closed cochains, their values along walks and sides
 ``marked_complex``        a complex with the cochains that it carries
 ``delaunay``              intrinsic Delaunay flips
+``moved_lengths``         the same triangulation with other lengths or positions
+``flip_derivatives``      new lengths by old ones
 ``midpoint_subdivision``  every face in four, or in n²
 ``barycentre_insertion``  some faces in three
 ``doubling``              the complex double
@@ -63,7 +65,20 @@ from .surface_checks import check_closed_and_oriented, check_connected, check_su
 from .weights import cone_angles, cotan_weights, extrinsic_weights
 from .cochains import along_sides, primitive
 from .marked_complex import MarkedComplex
-from .delaunay import cocircularity_allowance, delaunay_flips, intrinsic_delaunay, transport
+from .delaunay import (
+    Flips,
+    cocircularity_allowance,
+    delaunay_flips,
+    intrinsic_delaunay,
+    transport,
+)
+from .moved_lengths import edge_directions, edge_lengths, with_edge_lengths, with_positions
+from .flip_derivatives import (
+    FlipDerivative,
+    flip_derivatives,
+    pull_back,
+    push_forward,
+)
 from .midpoint_subdivision import split
 from .barycentre_insertion import insert_barycentres
 from .doubling import Involution, double, involution, lift
@@ -107,6 +122,15 @@ __all__ = [
     "delaunay_flips",
     "intrinsic_delaunay",
     "transport",
+    "Flips",
+    "FlipDerivative",
+    "edge_directions",
+    "edge_lengths",
+    "with_edge_lengths",
+    "with_positions",
+    "flip_derivatives",
+    "pull_back",
+    "push_forward",
     "split",
     "insert_barycentres",
     "double",

@@ -51,7 +51,9 @@ _EDGES_AT_ONCE = 8_192
 class Flips:
     """One round of flips: the edges flipped, and the cochain on each in terms of its sides.
 
-    ``c[edge] = first_sign c[first] + second_sign c[second]`` for every closed cochain c.
+    ``c[edge] = first_sign c[first] + second_sign c[second]`` for every closed cochain c.  Seen
+    from the edge A B that is flipped, with the new diagonal from p to q, ``first`` is A q,
+    ``second`` p A, ``third`` q B and ``fourth`` B p.
     """
 
     edge: Ints
@@ -59,6 +61,8 @@ class Flips:
     first_sign: NDArray[np.int8]
     second: Ints
     second_sign: NDArray[np.int8]
+    third: Ints
+    fourth: Ints
 
     @classmethod
     def union(cls, portions: list[Flips]) -> Flips:
@@ -241,7 +245,9 @@ class _FlippableMesh:
         p, a, q, b = (self.corner_vertex[corner] for corner in (h, bp, t, aq))
         old = np.concatenate([aq, pa, bp, qb])
         new = np.concatenate([here, here + 2, there, there + 2])
-        flips = Flips(edges, self.edge[aq], -self.sign[aq], self.edge[pa], -self.sign[pa])
+        signs = -self.sign[aq], -self.sign[pa]
+        sides = self.edge[aq], self.edge[pa], self.edge[qb], self.edge[bp]
+        flips = Flips(edges, sides[0], signs[0], sides[1], signs[1], sides[2], sides[3])
 
         self._move(old, new)
         self._place_diagonal(edges, here + 1, there + 1, diagonal)

@@ -19,6 +19,7 @@ upper bound of the exact one, and the bound of the period matrix falls exponenti
 ``trace_system``         the sparse system for the traces on edges
 ``least_energy``         the forms, and their energies from gradients
 ``point_values``         values, gradients and integrals of the forms anywhere
+``gradient_blocks``      gradients in the charts of faces, for derivatives
 =======================  ======================================================================
 
 References
@@ -36,6 +37,7 @@ from .least_energy import (
     high_order_forms,
     rounding_allowance,
 )
+from .gradient_blocks import HighOrderGradients
 from .point_values import edge_integrals, gradients, potentials
 
 __all__ = [
@@ -45,6 +47,7 @@ __all__ = [
     "energy_excess",
     "high_order_forms",
     "HighOrderForms",
+    "HighOrderGradients",
     "rounding_allowance",
     "potentials",
     "gradients",

@@ -22,6 +22,7 @@ face: a Gram matrix of explicit closed forms.  So :math:`D \ge D_{exact}` whatev
 ``harmonic_cochains`` harmonic forms as values on edges
 ``constant_forms``    forms that are constant on every triangle
 ``excess``            where on the surface the bound of the period matrix originates
+``length_derivatives`` Rauch's formula: how D changes with the lengths
 ``rounding``          what rounding can change in the energies
 ====================  =========================================================================
 
@@ -50,6 +51,16 @@ from .harmonic_cochains import (
     side_matrix,
 )
 from .constant_forms import face_areas, linear_parts, spread_to_vertices
+from .linear_forms import gram_matrix
+from .length_derivatives import (
+    GradientBlocks,
+    LinearGradients,
+    distortions,
+    energy_derivatives,
+    length_gradient,
+    moments,
+    side_vectors,
+)
 from .excess import energy_excess, most_of
 from .rounding import (
     energy_factor,
@@ -84,6 +95,14 @@ __all__ = [
     "face_areas",
     "linear_parts",
     "spread_to_vertices",
+    "gram_matrix",
+    "GradientBlocks",
+    "LinearGradients",
+    "distortions",
+    "energy_derivatives",
+    "length_gradient",
+    "moments",
+    "side_vectors",
     "energy_excess",
     "energy_factor",
     "most_of",

@@ -17,6 +17,8 @@ triangles have the stored lengths.
 ``arguments``         surfaces and options as callers hand them over
 ``memory_estimates``  what a computation will take, before it is begun
 ``rounding``          what rounding can change between D and Π
+``solved_forms``      the forms, kept for derivatives
+``derivative``        ∂Π by lengths and vertices, forward and backward
 ``matrix``            the period matrix, its estimates and its bound
 ``certificate``       D and its allowance → the certified matrix
 ``adaptive_degree``   the degree that meets a tolerance
@@ -33,6 +35,8 @@ Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 3.
 """
 
 from .arguments import as_complex, check_options
+from .solved_forms import SolvedForms, solve_forms
+from .derivative import EntryCovariance, Gradient
 from .matrix import PeriodMatrix, reduced_if_feasible, siegel_reduced
 from .certificate import certified_period_matrix
 from .adaptive_degree import ToleranceWarning
@@ -45,6 +49,10 @@ from .real_surfaces import real_structure
 __all__ = [
     "as_complex",
     "check_options",
+    "SolvedForms",
+    "solve_forms",
+    "Gradient",
+    "EntryCovariance",
     "PeriodMatrix",
     "siegel_reduced",
     "reduced_if_feasible",

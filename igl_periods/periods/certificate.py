@@ -12,12 +12,15 @@ from igl_periods.errors import ComplexError
 
 from .matrix import PeriodMatrix
 from .rounding import LEAST_ALLOWANCE, combined, congruence
+from .solved_forms import SolvedForms
 
 # Where rounding may change energies by more, relative to them, nothing is known of the matrix.
 _LARGEST_ROUNDING = 1.0
 
 
-def certified_period_matrix(given: MarkedComplex, raw: Floats, allowance: float) -> PeriodMatrix:
+def certified_period_matrix(
+    given: MarkedComplex, raw: Floats, allowance: float, forms: SolvedForms | None = None
+) -> PeriodMatrix:
     """The period matrix in the canonical basis, from energies in the classes of the cochains.
 
     Parameters
@@ -28,6 +31,8 @@ def certified_period_matrix(given: MarkedComplex, raw: Floats, allowance: float)
         Energies of explicit forms in the classes of ``given.cochains``.
     allowance : float
         What rounding can have changed in them, relative to them.
+    forms : SolvedForms, optional
+        The forms, to be kept.
 
     Raises
     ------
@@ -48,4 +53,5 @@ def certified_period_matrix(given: MarkedComplex, raw: Floats, allowance: float)
         cocycles=given.cocycles(),
         complex=given.complex,
         rounding=max(LEAST_ALLOWANCE, rounding),
+        forms=forms,
     )

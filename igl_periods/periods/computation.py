@@ -36,6 +36,7 @@ from .arguments import as_complex, check_options, edge_weights
 from .certificate import certified_period_matrix
 from .matrix import PeriodMatrix
 from .memory_estimates import check_high_order, room_for_forms
+from .solved_forms import solve_forms
 
 
 def period_matrix(
@@ -48,6 +49,7 @@ def period_matrix(
     tolerance: float | None = None,
     max_unknowns: int | None = None,
     max_memory: float | None = None,
+    keep_forms: bool = False,
 ) -> PeriodMatrix:
     """Compute the period matrix of a closed, oriented, connected polyhedral surface.
 
@@ -76,6 +78,9 @@ def period_matrix(
         Bytes that the computation may take; by default what is available.  Where the functions of
         all forms have no room at once, which is a matter of high genus, they are computed in
         portions.
+    keep_forms : bool
+        Keep the forms in the result, so that derivatives cost no new solution.  Not with a
+        tolerance or extrinsic weights.
 
     Returns
     -------
@@ -109,12 +114,20 @@ def period_matrix(
     (1, True, True)
     """
     check_options(weights, degree, tolerance)
+    if keep_forms and (weights == "extrinsic" or tolerance is not None):
+        raise ValueError(
+            "forms are kept with intrinsic weights and a degree that is given: compute once with "
+            "the tolerance, and again with the degree that it took."
+        )
     K = as_complex(surface, F)
     room = room_for_forms(K, max_memory)
     if weights == "extrinsic":
         return _uncertified(K, extrinsic_weights(K))
     with stage("homology"):
         given = mark(K)
+    if keep_forms:
+        forms, raw, allowance = solve_forms(given, delaunay=delaunay, degree=degree)
+        return certified_period_matrix(given, raw, allowance, forms)
     certify = partial(certified_period_matrix, given)
     if tolerance is not None:
         where = _triangulated(given, delaunay)

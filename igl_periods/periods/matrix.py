@@ -57,13 +57,25 @@ from igl_periods.errors import ComplexError, NotASiegelPointError
 from igl_periods.harmonic import energy_factor
 from igl_periods.siegel import SIEGEL_GENUS_LIMIT, check_symplectic, siegel_reduce, to_flint
 from igl_periods.symplectic import (
+    estimate_derivative,
     form_action,
     product,
     siegel_point,
     williamson_of_factor,
 )
 
+from .derivative import (
+    EntryCovariance,
+    Gradient,
+    checked_directions,
+    checked_weights,
+    derivative_along,
+    entry_weights,
+    gradient_of,
+    noise_covariance,
+)
 from .rounding import LEAST_ALLOWANCE, algebraic_allowance, combined, congruence
+from .solved_forms import SolvedForms, recomputed_forms
 
 _MOST_REDUCTIONS = 8
 _ASYMMETRY = 1e-8
@@ -88,6 +100,8 @@ class PeriodMatrix:
         The surface as it was given, before any flip.
     rounding : float
         What the bound allows for floating-point errors in ``dirichlet``, relative like itself.
+    forms : SolvedForms or None
+        The harmonic forms, where they were kept for derivatives (``keep_forms=True``).
     """
 
     dirichlet: Floats
@@ -95,6 +109,7 @@ class PeriodMatrix:
     cocycles: csr_array
     complex: DeltaComplex
     rounding: float = LEAST_ALLOWANCE
+    forms: SolvedForms | None = None
 
     def __post_init__(self) -> None:
         D = np.array(self.dirichlet, dtype=np.float64)
@@ -227,7 +242,94 @@ class PeriodMatrix:
             cocycles=csr_array(csr_array(U) @ self.cocycles),
             complex=self.complex,
             rounding=combined(self.rounding, loss),
+            forms=None if self.forms is None else self.forms.in_basis(U),
         )
+
+    def derivative(
+        self,
+        *,
+        lengths: ArrayLike | None = None,
+        vertices: ArrayLike | None = None,
+        estimate: str = "matrix",
+    ) -> Complexes:
+        """How Π moves as the lengths of ``complex`` or its vertices do.
+
+        Without kept forms (``keep_forms=True``), the first derivative solves for them once more.
+
+        Parameters
+        ----------
+        lengths : (…, n_edges) array-like
+            One direction or several, in the order of the edges (``complexes.edge_ends``).
+        vertices : (…, n_vertices, d) array-like
+            Instead of ``lengths``; rows as of ``complex.positions``.
+        estimate : {"matrix", "primal", "dual", "mean"}
+
+        Returns
+        -------
+        (…, g, g) complex
+            :mod:`igl_periods.periods.derivative` says of what, at which degree.
+
+        Raises
+        ------
+        ValueError
+            If not exactly one of the directions is given, shapes are wrong, numbers are not
+            finite, or there is no such estimate.
+        ComplexError
+            If there are no positions, or the forms were not kept and are not linear ones.
+        """
+        moved = checked_directions(self.complex, lengths, vertices)
+        mean = estimate_derivative(self.dirichlet, estimate)
+        return derivative_along(self.complex, self._solved, mean, moved)
+
+    def gradient(self, W: ArrayLike, *, estimate: str = "matrix") -> Gradient:
+        """The gradient of Re Σ W̄ Π by lengths and by vertices: ``derivative``, transposed.
+
+        Parameters
+        ----------
+        W : (…, g, g) array-like
+            One function or several.
+        estimate : {"matrix", "primal", "dual", "mean"}
+
+        Returns
+        -------
+        Gradient
+            ``lengths`` (…, n_edges) and ``vertices`` (…, n_vertices, d).
+
+        Raises
+        ------
+        ValueError, ComplexError
+            As :meth:`derivative`.
+        """
+        weights = checked_weights(W, self.genus)
+        mean = estimate_derivative(self.dirichlet, estimate)
+        return gradient_of(self.complex, self._solved, mean, weights)
+
+    def covariance(self, vertex_noise: ArrayLike) -> EntryCovariance:
+        """How uncertain the entries of Π are if the vertices are, to first order.
+
+        Parameters
+        ----------
+        vertex_noise : float, (n,), (n, d, d) or (n d, n d) array-like
+            The standard deviation of every coordinate, one for each vertex; or covariances of
+            positions, each vertex for itself or all together.
+
+        Raises
+        ------
+        ValueError
+            If it is none of these, negative, or not symmetric.
+        ComplexError
+            As :meth:`derivative`.
+        """
+        by_vertex = self.gradient(entry_weights(self.genus)).vertices
+        if by_vertex is None:
+            raise ComplexError("the surface has no positions, only lengths: no vertex has noise.")
+        return noise_covariance(by_vertex, vertex_noise)
+
+    @cached_property
+    def _solved(self) -> SolvedForms:
+        if self.forms is not None:
+            return self.forms
+        return recomputed_forms(self.complex, self.cocycles, self.dirichlet)
 
     def to_flint(self) -> flint.acb_mat:
         """``matrix`` as balls with the radii ``entry_bounds``, for python-flint."""
@@ -235,8 +337,8 @@ class PeriodMatrix:
 
     def __reduce__(self) -> tuple[type[PeriodMatrix], tuple[Any, ...]]:
         # Pickled without what is derived, and read-only again afterwards.
-        fields = (self.dirichlet, self.certified, self.cocycles, self.complex, self.rounding)
-        return PeriodMatrix, fields
+        kept = (self.rounding, self.forms)
+        return PeriodMatrix, (self.dirichlet, self.certified, self.cocycles, self.complex, *kept)
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
         if copy:
