@@ -41,7 +41,7 @@ Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 2.
 Bobenko, Springborn, "A discrete Laplace–Beltrami operator for simplicial surfaces" (2007).
 """
 
-from .triangles import angles, apexes, cotangents, double_areas, length_sensitivity
+from .triangles import angles, apexes, cotangents, double_areas, length_sensitivity, slacks
 from .checked_arrays import (
     check_equal_when_glued,
     check_finite,
@@ -89,6 +89,7 @@ __all__ = [
     "cotangents",
     "double_areas",
     "length_sensitivity",
+    "slacks",
     "check_equal_when_glued",
     "check_finite",
     "checked_array",

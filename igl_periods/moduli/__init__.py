@@ -16,10 +16,12 @@ Clebsch for genus 2, vanishing theta constants for genus 3.
 ======================  =======================================================================
 ``lattice_isometries``  integer isometries of quadratic forms, to within a tolerance
 ``equivalence``         γ with γ·Π₁ = Π₂
+``nearest_marking``     γ with γ·Π₁ near Π₂
 ``automorphisms``       the group of γ with γ·Π = Π
 ``theta``               theta constants, and hyperellipticity
 ``genus_one``           Klein's j
 ``genus_two``           roots and invariants of the curve of genus 2
+``invariant_derivatives``  how these move with Π
 ``quadratic_numbers``   entries that look like quadratic irrationals
 ======================  =======================================================================
 
@@ -37,10 +39,17 @@ from .equivalence import (
     moduli_distance,
     symplectic_isomorphisms,
 )
+from .nearest_marking import NearestMarking, nearest_marking
 from .automorphisms import SymplecticGroup, symplectic_automorphism_group
 from .theta import is_hyperelliptic, theta_constants, vanishing_even_characteristics
 from .genus_two import absolute_igusa_invariants, igusa_clebsch_invariants, rosenhain_roots
 from .genus_one import certified_j_invariant, j_invariant
+from .invariant_derivatives import (
+    igusa_derivatives,
+    j_derivative,
+    rosenhain_derivatives,
+    theta_derivatives,
+)
 from .quadratic_numbers import QuadraticGuess, recognise_entries, recognise_quadratic
 from .lattice_isometries import isometries
 
@@ -51,6 +60,8 @@ __all__ = [
     "logarithms_found",
     "moduli_distance",
     "symplectic_isomorphisms",
+    "nearest_marking",
+    "NearestMarking",
     "symplectic_automorphism_group",
     "SymplecticGroup",
     "vanishing_even_characteristics",
@@ -61,6 +72,10 @@ __all__ = [
     "j_invariant",
     "certified_j_invariant",
     "absolute_igusa_invariants",
+    "theta_derivatives",
+    "j_derivative",
+    "rosenhain_derivatives",
+    "igusa_derivatives",
     "recognise_quadratic",
     "recognise_entries",
     "QuadraticGuess",

@@ -15,6 +15,7 @@ reduced matrices of one surface may differ, and are never compared entry by entr
 ====================  =========================================================================
 ``half_space``        what is a Siegel point; distance
 ``action``            γ·Π, accurately
+``geodesics``         the shortest way between two points
 ``balls``             Π in ball arithmetic
 ``lll``               lattice reduction in integers; large lattices in floating point
 ``lll_in_floats``     the latter
@@ -38,6 +39,7 @@ from .half_space import (
     siegel_distance,
     siegel_transform,
 )
+from .geodesics import moduli_path, siegel_exponential, siegel_logarithm
 from .balls import ARRAY_ERROR, PRECISION, ball_matrix, to_flint
 from .lll import lll_basis
 from .enumeration import short_vectors
@@ -50,6 +52,9 @@ __all__ = [
     "log_eigenvalues",
     "siegel_distance",
     "siegel_transform",
+    "moduli_path",
+    "siegel_exponential",
+    "siegel_logarithm",
     "ARRAY_ERROR",
     "ball_matrix",
     "PRECISION",

@@ -1,0 +1,209 @@
+r"""What may move, and in which norm: vertices, combinations of smooth displacements, or lengths.
+
+A chart writes the surfaces near a given one as vectors x, 0 for the given one, with a norm
+:math:`|dx|^2 = dx^T N\, dx` that is measured on the surface at x.  The shortest dx with J dx = r is :math:`N^{-1} J^T (J N^{-1}
+J^T)^{-1} r`, so all that is needed of N is its inverse.
+
+* **Vertices**: x holds their displacements.  N is the *mass norm*, a third of the areas of the
+  faces at each vertex, relative to the whole area, plus s² times the Dirichlet energy,
+  :math:`\int |dX|^2 / A + s^2 \int |\nabla dX|^2`.  The first alone (s = 0) allows ripples, which
+  change the conformal structure at little cost; the second measures how much the surface is
+  strained, which distributes the strain like the quadratic differentials of Π.
+* **Smooth displacements**: the same within the span of given functions at the vertices.
+* **Lengths**: x holds the :math:`\log (l_e / l_e^0)`, so that lengths stay positive, and N a third of
+  the areas at each edge.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+import scipy.linalg
+from numpy.typing import ArrayLike
+from scipy import sparse
+from scipy.sparse import csc_array, csc_matrix, csr_array
+
+from igl_periods.arrays import Floats
+from igl_periods.complexes import (
+    DeltaComplex,
+    cotan_weights,
+    edge_directions,
+    edge_lengths,
+    intrinsic_delaunay,
+    with_edge_lengths,
+    with_positions,
+)
+from igl_periods.harmonic import (
+    face_areas,
+    factor,
+    laplacian,
+    solve,
+    spread_to_vertices,
+)
+from igl_periods.periods import Gradient
+
+
+class Chart(Protocol):
+    """Coordinates of surfaces near a given one, and a norm of their changes."""
+
+    def start(self) -> Floats:
+        """The coordinates of the given surface, 0; (N,)."""
+
+    def surface(self, x: Floats) -> DeltaComplex:
+        """The surface at x; ComplexError where there is none."""
+
+    def rows(self, K: DeltaComplex, gradient: Gradient) -> Floats:
+        """Gradients (c, …) at the surface K as gradients by x; (c, N)."""
+
+    def raised(self, K: DeltaComplex, rows: Floats) -> Floats:
+        """N⁻¹ at the surface K applied to every row; (c, N)."""
+
+    def strain(self, K: DeltaComplex, dx: Floats) -> float:
+        """The largest relative change of an edge, about, as x moves by dx."""
+
+
+@dataclass(frozen=True, eq=False)
+class VertexChart:
+    """All vertices move freely."""
+
+    given: DeltaComplex
+    smoothing: float
+
+    @classmethod
+    def of(cls, K: DeltaComplex, smoothing: float) -> VertexChart:
+        """The chart around a surface with positions.
+
+        Raises
+        ------
+        ValueError
+            If the smoothing is negative.
+        ComplexError
+            If there are no positions.
+        """
+        edge_directions(K)
+        _check_smoothing(smoothing)
+        return cls(K, smoothing)
+
+    def start(self) -> Floats:
+        return np.zeros(np.size(self.given.positions))
+
+    def surface(self, x: Floats) -> DeltaComplex:
+        return with_positions(self.given, self.given.positions + self._displacement(x))
+
+    def rows(self, K: DeltaComplex, gradient: Gradient) -> Floats:
+        assert gradient.vertices is not None
+        return gradient.vertices.reshape(len(gradient.vertices), -1)
+
+    def raised(self, K: DeltaComplex, rows: Floats) -> Floats:
+        n = K.n_vertices
+        norm = factor(csc_matrix(sparse.tril(displacement_norm(K, self.smoothing))))
+        columns = rows.reshape(len(rows), n, -1).transpose(1, 0, 2)
+        solved = solve(norm, columns.reshape(n, -1)).reshape(columns.shape)
+        return solved.transpose(1, 0, 2).reshape(rows.shape)
+
+    def strain(self, K: DeltaComplex, dx: Floats) -> float:
+        return _strain(K, self._displacement(dx))
+
+    def _displacement(self, x: Floats) -> Floats:
+        return x.reshape(self.given.n_vertices, -1)
+
+
+@dataclass(frozen=True, eq=False)
+class SmoothChart:
+    """Vertices move by combinations of given functions, one for each coordinate of space."""
+
+    given: DeltaComplex
+    basis: Floats  # (n, k)
+    smoothing: float
+
+    @classmethod
+    def of(cls, K: DeltaComplex, functions: ArrayLike, smoothing: float) -> SmoothChart:
+        """The chart around a surface with positions, for functions (n, k) at its vertices.
+
+        Raises
+        ------
+        ValueError
+            If the functions have another shape, are not finite, or are linearly dependent.
+        ComplexError
+            If there are no positions.
+        """
+        edge_directions(K)
+        B = np.asarray(functions, dtype=np.float64)
+        if B.ndim != 2 or len(B) != K.n_vertices or not np.isfinite(B).all():
+            raise ValueError(
+                f"a basis of displacements is a finite array of shape ({K.n_vertices}, k), a "
+                f"function on the vertices in each column; not {B.shape}."
+            )
+        _check_smoothing(smoothing)
+        if np.linalg.matrix_rank(B) < B.shape[1]:
+            raise ValueError("the functions of the basis are linearly dependent, or nearly.")
+        return cls(K, B, smoothing)
+
+    def start(self) -> Floats:
+        assert self.given.positions is not None
+        return np.zeros(self.basis.shape[1] * self.given.positions.shape[1])
+
+    def surface(self, x: Floats) -> DeltaComplex:
+        return with_positions(self.given, self.given.positions + self._displacement(x))
+
+    def rows(self, K: DeltaComplex, gradient: Gradient) -> Floats:
+        assert gradient.vertices is not None
+        return (self.basis.T @ gradient.vertices).reshape(len(gradient.vertices), -1)
+
+    def raised(self, K: DeltaComplex, rows: Floats) -> Floats:
+        k = self.basis.shape[1]
+        norm = self.basis.T @ (displacement_norm(K, self.smoothing) @ self.basis)
+        columns = rows.reshape(len(rows), k, -1).transpose(1, 0, 2)
+        solved = scipy.linalg.solve(norm, columns.reshape(k, -1), assume_a="pos")
+        return np.asarray(solved.reshape(columns.shape).transpose(1, 0, 2).reshape(rows.shape))
+
+    def strain(self, K: DeltaComplex, dx: Floats) -> float:
+        return _strain(K, self._displacement(dx))
+
+    def _displacement(self, x: Floats) -> Floats:
+        return np.asarray(self.basis @ x.reshape(self.basis.shape[1], -1))
+
+
+@dataclass(frozen=True, eq=False)
+class LengthChart:
+    """The lengths of edges move."""
+
+    given: DeltaComplex
+
+    def start(self) -> Floats:
+        return np.zeros(self.given.n_edges)
+
+    def surface(self, x: Floats) -> DeltaComplex:
+        return with_edge_lengths(self.given, edge_lengths(self.given) * np.exp(x))
+
+    def rows(self, K: DeltaComplex, gradient: Gradient) -> Floats:
+        return gradient.lengths * edge_lengths(K)
+
+    def raised(self, K: DeltaComplex, rows: Floats) -> Floats:
+        third = np.repeat(face_areas(K) / 3.0, 3)
+        masses = np.bincount(K.edge.ravel(), third, K.n_edges) / face_areas(K).sum()
+        return np.asarray(rows / masses)
+
+    def strain(self, K: DeltaComplex, dx: Floats) -> float:
+        return float(np.abs(dx).max())
+
+
+def displacement_norm(K: DeltaComplex, smoothing: float) -> csc_array:
+    """The matrix of the norm of displacements, one coordinate at a time; (n, n) sparse."""
+    flipped, _ = intrinsic_delaunay(K, csr_array((0, K.n_edges), dtype=np.int64))
+    area = face_areas(flipped)
+    masses = sparse.diags_array(spread_to_vertices(flipped, area) / area.sum())
+    return csc_array(masses + smoothing**2 * laplacian(flipped, cotan_weights(flipped)))
+
+
+def _check_smoothing(smoothing: float) -> None:
+    if not 0.0 <= smoothing < np.inf:
+        raise ValueError(f"smoothing = {smoothing}: it is a number from 0 on.")
+
+
+def _strain(K: DeltaComplex, displacement: Floats) -> float:
+    tail, head, _ = edge_directions(K)
+    relative = np.linalg.norm(displacement[head] - displacement[tail], axis=1) / edge_lengths(K)
+    return float(relative.max())
