@@ -10,8 +10,9 @@ J^T)^{-1} r`, so all that is needed of N is its inverse.
   change the conformal structure at little cost; the second measures how much the surface is
   strained, which distributes the strain like the quadratic differentials of Π.
 * **Smooth displacements**: the same within the span of given functions at the vertices.
-* **Lengths**: x holds the :math:`\log (l_e / l_e^0)`, so that lengths stay positive, and N a third of
-  the areas at each edge.
+* **Lengths**: x holds the :math:`\log (l_e / l_e^0)`, so that lengths stay positive.  N measures
+  how the metric is strained, :math:`\int \operatorname{tr} \epsilon^2 / A`; thin triangles are
+  stiff.
 """
 
 from __future__ import annotations
@@ -25,10 +26,11 @@ from numpy.typing import ArrayLike
 from scipy import sparse
 from scipy.sparse import csc_array, csc_matrix, csr_array
 
-from igl_periods.arrays import Floats
+from igl_periods.arrays import Complexes, Floats
 from igl_periods.complexes import (
     DeltaComplex,
     cotan_weights,
+    cotangents,
     edge_directions,
     edge_lengths,
     intrinsic_delaunay,
@@ -39,6 +41,7 @@ from igl_periods.harmonic import (
     face_areas,
     factor,
     laplacian,
+    side_vectors,
     solve,
     spread_to_vertices,
 )
@@ -182,12 +185,33 @@ class LengthChart:
         return gradient.lengths * edge_lengths(K)
 
     def raised(self, K: DeltaComplex, rows: Floats) -> Floats:
-        third = np.repeat(face_areas(K) / 3.0, 3)
-        masses = np.bincount(K.edge.ravel(), third, K.n_edges) / face_areas(K).sum()
-        return np.asarray(rows / masses)
+        return solve(factor(csc_matrix(sparse.tril(strain_norm(K)))), rows.T).T
 
     def strain(self, K: DeltaComplex, dx: Floats) -> float:
-        return float(np.abs(dx).max())
+        traces, mu = _strains(K)
+        sides = dx[K.edge]
+        trace, shear = (np.sum(part * sides, axis=1) for part in (traces, mu))
+        return float((0.5 * np.abs(trace) + np.abs(shear)).max())
+
+
+def strain_norm(K: DeltaComplex) -> csc_array:
+    """The matrix of ∫ tr ε² / A in the logarithms of lengths; (n_edges, n_edges) sparse."""
+    traces, mu = _strains(K)
+    by_face = 0.5 * traces[:, :, None] * traces[:, None, :]
+    by_face += 2.0 * (mu[:, :, None] * mu[:, None, :].conj()).real
+    area = face_areas(K)
+    by_face *= (area / area.sum())[:, None, None]
+    rows, columns = np.broadcast_arrays(K.edge[:, :, None], K.edge[:, None, :])
+    entries = (by_face.ravel(), (rows.ravel(), columns.ravel()))
+    return csc_array(entries, shape=(K.n_edges, K.n_edges))
+
+
+def _strains(K: DeltaComplex) -> tuple[Floats, Complexes]:
+    """tr ε and μ of each face per logarithm of each side; (m, 3) both."""
+    E = side_vectors(K.lengths)
+    area = face_areas(K)
+    traces = K.lengths**2 * cotangents(K.lengths) / (2.0 * area[:, None])
+    return traces, (E.prod(axis=1) / (8.0 * area**2))[:, None] * E.conj()
 
 
 def displacement_norm(K: DeltaComplex, smoothing: float) -> csc_array:

@@ -9,7 +9,7 @@ many are used as surfaces have moduli.
 A step is shortened until no edge changes by more than a fifth, every triangle keeps a part of its
 slack, and the distance to the target falls.  Where Π is a submersion the iteration is Newton's, and
 ends with quadratic convergence.  At hyperelliptic surfaces of genus 3 or more the derivative of Π
-drops in rank: towards them distances fall by a constant factor, about 4 in two steps.
+drops in rank: towards them distances fall by a constant factor, about 4 in each step.
 """
 
 from __future__ import annotations
@@ -21,21 +21,24 @@ import numpy as np
 from igl_periods.arrays import Complexes, Floats
 from igl_periods.complexes import DeltaComplex, slacks
 from igl_periods.errors import ComplexError
-from igl_periods.periods import PeriodMatrix
+from igl_periods.periods import Gradient, PeriodMatrix
 from igl_periods.run_log import logger, stage
 from igl_periods.siegel import siegel_distance, siegel_logarithm
 
 from .charts import Chart
+from .repulsion import repulsion
 from .results import Step
 
 _LARGEST_STRAIN = 0.2
+# Strain by which sheets are moved apart at each step, until the target is so near.
+_SLIDE, _SETTLED = 0.1, 0.02
 # Part of the slack of each triangle that a step leaves.
 _SLACK_KEPT = 0.25
 _MOST_HALVINGS = 12
 # Squares of singular values of J below this part of the largest are rounding.
 _RANK = 1e-13
 # Steps in a row that gain less than this part of the distance end the iteration.
-_LEAST_GAIN, _IDLE_STEPS = 0.02, 6
+_LEAST_GAIN, _IDLE_STEPS = 0.002, 8
 
 Computation = Callable[[DeltaComplex], PeriodMatrix]
 
@@ -47,6 +50,7 @@ def gauss_newton(
     target: Complexes,
     tolerance: float,
     max_steps: int,
+    apart: bool = False,
 ) -> tuple[Floats, PeriodMatrix, tuple[Step, ...], str]:
     """Move x until the surface there has the period matrix ``target``.
 
@@ -78,7 +82,7 @@ def gauss_newton(
         if len(steps) == max_steps:
             return x, pm, tuple(steps), f"stopped after {max_steps} steps at distance {distance:.3g}"
         with stage(f"step {len(steps) + 1} towards the target, at distance {distance:.3g}"):
-            moved = _step(chart, x, compute, pm, target, distance)
+            moved = _step(chart, x, compute, pm, target, distance, apart)
         if moved is None:
             return x, pm, tuple(steps), _no_way(distance, len(target))
         dx, pm, after = moved
@@ -99,12 +103,17 @@ def _step(
     pm: PeriodMatrix,
     target: Complexes,
     distance: float,
+    apart: bool,
 ) -> tuple[Floats, PeriodMatrix, float] | None:
     """The displacement, the matrix and the distance after it; None where none comes nearer."""
     K = pm.complex
     J, r = _linearised(chart, pm, target)
-    dx = _least_solution(J, chart.raised(K, J), r, _moduli(pm.genus))
+    raised = chart.raised(K, J)
+    inverse = _inverse(J @ raised.T, _moduli(pm.genus))
+    dx = (inverse @ r) @ raised
     dx *= min(1.0, _LARGEST_STRAIN / max(chart.strain(K, dx), 1e-300))
+    if apart and distance > _SETTLED:
+        dx += _away(chart, K, J, raised, inverse)
     slack = slacks(K.lengths)
     for _ in range(_MOST_HALVINGS):
         try:
@@ -140,15 +149,21 @@ def _tangent_basis(g: int) -> Complexes:
     return np.concatenate([units, 1j * units])
 
 
-def _least_solution(J: Floats, raised: Floats, r: Floats, rank: int) -> Floats:
-    """The least dx for which J dx is nearest to r, by ``rank`` singular values at most.
-
-    ``raised`` holds the rows of J times N⁻¹: dx = N⁻¹ Jᵀ (J N⁻¹ Jᵀ)⁺ r.
-    """
-    squares, U = np.linalg.eigh(J @ raised.T)
+def _inverse(A: Floats, rank: int) -> Floats:
+    """The pseudoinverse of J N⁻¹ Jᵀ by its largest eigenvalues, ``rank`` at most."""
+    squares, U = np.linalg.eigh(A)
     squares, U = squares[::-1][:rank], U[:, ::-1][:, :rank]
     kept = squares > _RANK * squares[0]
-    return np.asarray(((U[:, kept].T @ r) / squares[kept]) @ (U[:, kept].T @ raised))
+    return np.asarray((U[:, kept] / squares[kept]) @ U[:, kept].T)
+
+
+def _away(chart: Chart, K: DeltaComplex, J: Floats, raised: Floats, inverse: Floats) -> Floats:
+    """A displacement that moves sheets of the surface apart and leaves Π as it is."""
+    _, gradient = repulsion(K)
+    row = chart.rows(K, Gradient(np.zeros((1, K.n_edges)), gradient[None]))
+    down = -chart.raised(K, row)[0]
+    along = down - (inverse @ (J @ down)) @ raised
+    return along * (_SLIDE / max(chart.strain(K, along), 1e-300))
 
 
 def _moduli(g: int) -> int:

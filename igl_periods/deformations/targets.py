@@ -102,8 +102,8 @@ def lengths_with(
 ) -> Deformation:
     """Change the lengths of the edges of a surface until it has a given period matrix.
 
-    Every step is the shortest one in the norm Σ (area at e) (dl_e / l_e)²; triangle inequalities
-    stay strict.
+    Every step is the one of least strain ε of the metric, ∫ tr ε²; triangle inequalities stay
+    strict.
 
     Parameters, Returns, Raises, Warns
         As :func:`deform_to`; no positions are needed, and the result has none.

@@ -22,6 +22,7 @@ Clebsch for genus 2, vanishing theta constants for genus 3.
 ``genus_one``           Klein's j
 ``genus_two``           roots and invariants of the curve of genus 2
 ``invariant_derivatives``  how these move with Π
+``hyperelliptic_points``  those of genus 3 near a given Π
 ``quadratic_numbers``   entries that look like quadratic irrationals
 ======================  =======================================================================
 
@@ -50,6 +51,7 @@ from .invariant_derivatives import (
     rosenhain_derivatives,
     theta_derivatives,
 )
+from .hyperelliptic_points import hyperelliptic_point
 from .quadratic_numbers import QuadraticGuess, recognise_entries, recognise_quadratic
 from .lattice_isometries import isometries
 
@@ -72,6 +74,7 @@ __all__ = [
     "j_invariant",
     "certified_j_invariant",
     "absolute_igusa_invariants",
+    "hyperelliptic_point",
     "theta_derivatives",
     "j_derivative",
     "rosenhain_derivatives",
