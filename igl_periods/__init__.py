@@ -21,6 +21,7 @@ page.  In reading order:
 ``siegel``         Π → γ·Π reduced
 ``moduli``         Π₁, Π₂ → equivalence, symmetries, invariants
 ``forms``          the discrete theory of the paper on Λ = Γ ⊕ Γ*
+``deformations``   Π* → a surface that has it
 ``differentials``  Π on the mesh → holomorphic forms, parametrization, Abel–Jacobi
 ``surfaces``       reference surfaces, their exact Π, and which of them a Π is
 ``pictures``, ``reports``, ``cli``, ``batch``, ``distributed``
@@ -65,7 +66,10 @@ from .periods import (
 from .siegel import (
     SIEGEL_GENUS_LIMIT,
     SiegelReduction,
+    moduli_path,
     siegel_distance,
+    siegel_exponential,
+    siegel_logarithm,
     siegel_reduce,
     siegel_transform,
     to_flint,
@@ -73,14 +77,18 @@ from .siegel import (
 from .moduli import (
     Isomorphisms,
     SymplecticGroup,
+    hyperelliptic_point,
     is_hyperelliptic,
+    j_derivative,
     j_invariant,
     moduli_distance,
+    nearest_marking,
     recognise_entries,
     recognise_quadratic,
     symplectic_automorphism_group,
     symplectic_isomorphisms,
     theta_constants,
+    theta_derivatives,
 )
 from .forms import (
     DoubleGraph,
@@ -96,6 +104,15 @@ from .differentials import (
     form_of_real_periods,
     most_even_form,
     parametrize,
+)
+from .deformations import (
+    Deformation,
+    DeformationWarning,
+    deform_along,
+    deform_to,
+    lengths_along,
+    lengths_with,
+    smooth_functions,
 )
 from .surfaces import Identification, catalogue, identify
 
@@ -130,6 +147,9 @@ __all__ = [
     "siegel_reduce",
     "siegel_transform",
     "siegel_distance",
+    "siegel_logarithm",
+    "siegel_exponential",
+    "moduli_path",
     "SiegelReduction",
     "SIEGEL_GENUS_LIMIT",
     "to_flint",
@@ -137,11 +157,15 @@ __all__ = [
     "symplectic_isomorphisms",
     "Isomorphisms",
     "moduli_distance",
+    "nearest_marking",
     "symplectic_automorphism_group",
     "SymplecticGroup",
     "j_invariant",
+    "j_derivative",
     "genus_two",
     "theta_constants",
+    "theta_derivatives",
+    "hyperelliptic_point",
     "is_hyperelliptic",
     "recognise_quadratic",
     "recognise_entries",
@@ -149,6 +173,14 @@ __all__ = [
     "Identification",
     "catalogue",
     "surfaces",
+    # surfaces with the period matrix that one wants
+    "deform_to",
+    "lengths_with",
+    "deform_along",
+    "lengths_along",
+    "smooth_functions",
+    "Deformation",
+    "DeformationWarning",
     # forms
     "harmonic_forms",
     "harmonic_form_blocks",

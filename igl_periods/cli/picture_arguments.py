@@ -17,7 +17,9 @@ from igl_periods.pictures import (
     cut_scene,
     cycles_scene,
     density_scene,
+    quadratic_scene,
     quality_scene,
+    sensitivity_scene,
 )
 from igl_periods.run_log import stage
 
@@ -28,6 +30,8 @@ _KINDS: dict[str, str] = {
     "checkerboard": "the checkerboard of a holomorphic form, with its zeros",
     "density": "the length |ζ| of a form",
     "quality": "where the bound of the period matrix originates",
+    "sensitivity": "where the period matrix is sensitive to displacements of the surface",
+    "quadratic": "a quadratic differential, the square of ζ_K: --form K, or the product: K,L",
     "cut": "the cut that makes the surface a disk",
 }
 
@@ -84,6 +88,10 @@ def chosen_scene(options: argparse.Namespace) -> Scene:
         return cycles_scene(pm)
     if options.show == "quality":
         return quality_scene(pm.complex, mesh_quality(pm.complex))
+    if options.show == "sensitivity":
+        return sensitivity_scene(pm)
+    if options.show == "quadratic":
+        return quadratic_scene(pm, *_pair(options.form))
     scenes = {"checkerboard": checkerboard_scene, "density": density_scene, "cut": cut_scene}
     return scenes[options.show](chosen_parametrization(pm, options.form))
 
@@ -95,6 +103,14 @@ def chosen_parametrization(pm: PeriodMatrix, form: str | int | Complexes) -> Par
             raise ValueError(f"there is no form ζ_{form}: the genus is {pm.genus}.")
         return parametrize(pm, np.eye(pm.genus)[form - 1])
     return parametrize(pm, most_even_form(pm) if isinstance(form, str) else form)
+
+
+def _pair(form: str | int | Complexes) -> tuple[int, int]:
+    """The numbers k, l of ζ_kζ_l; 1, 1 where nothing is said."""
+    if isinstance(form, str):
+        return 1, 1
+    first, second = (form, form) if isinstance(form, int) else np.resize(form.real, 2).astype(int)
+    return int(first), int(second)
 
 
 def _form(text: str) -> str | int | Complexes:

@@ -1,15 +1,15 @@
-r"""What may move, and in which norm: vertices, combinations of smooth displacements, or lengths.
+r"""What may move, and in which norm: vertices, or lengths.
 
 A chart writes the surfaces near a given one as vectors x, 0 for the given one, with a norm
-:math:`|dx|^2 = dx^T N\, dx` that is measured on the surface at x.  The shortest dx with J dx = r is :math:`N^{-1} J^T (J N^{-1}
-J^T)^{-1} r`, so all that is needed of N is its inverse.
+:math:`|dx|^2 = dx^T N\, dx` that is measured on the surface at x.  The shortest dx with J dx = r is
+:math:`N^{-1} J^T (J N^{-1} J^T)^{-1} r`, so all that is needed of N is its inverse.
 
 * **Vertices**: x holds their displacements.  N is the *mass norm*, a third of the areas of the
   faces at each vertex, relative to the whole area, plus s² times the Dirichlet energy,
   :math:`\int |dX|^2 / A + s^2 \int |\nabla dX|^2`.  The first alone (s = 0) allows ripples, which
   change the conformal structure at little cost; the second measures how much the surface is
   strained, which distributes the strain like the quadratic differentials of Π.
-* **Smooth displacements**: the same within the span of given functions at the vertices.
+  Displacements may be restricted to combinations of given functions at the vertices.
 * **Lengths**: x holds the :math:`\log (l_e / l_e^0)`, so that lengths stay positive.  N measures
   how the metric is strained, :math:`\int \operatorname{tr} \epsilon^2 / A`; thin triangles are
   stiff.
@@ -21,7 +21,6 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-import scipy.linalg
 from numpy.typing import ArrayLike
 from scipy import sparse
 from scipy.sparse import csc_array, csc_matrix, csr_array
@@ -69,104 +68,82 @@ class Chart(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class VertexChart:
-    """All vertices move freely."""
+    """Vertices move, freely or by combinations of given functions in each coordinate of space."""
 
     given: DeltaComplex
     smoothing: float
+    basis: Floats | None = None  # (n, k)
 
     @classmethod
-    def of(cls, K: DeltaComplex, smoothing: float) -> VertexChart:
-        """The chart around a surface with positions.
-
-        Raises
-        ------
-        ValueError
-            If the smoothing is negative.
-        ComplexError
-            If there are no positions.
-        """
-        edge_directions(K)
-        _check_smoothing(smoothing)
-        return cls(K, smoothing)
-
-    def start(self) -> Floats:
-        return np.zeros(np.size(self.given.positions))
-
-    def surface(self, x: Floats) -> DeltaComplex:
-        return with_positions(self.given, self.given.positions + self._displacement(x))
-
-    def rows(self, K: DeltaComplex, gradient: Gradient) -> Floats:
-        assert gradient.vertices is not None
-        return gradient.vertices.reshape(len(gradient.vertices), -1)
-
-    def raised(self, K: DeltaComplex, rows: Floats) -> Floats:
-        n = K.n_vertices
-        norm = factor(csc_matrix(sparse.tril(displacement_norm(K, self.smoothing))))
-        columns = rows.reshape(len(rows), n, -1).transpose(1, 0, 2)
-        solved = solve(norm, columns.reshape(n, -1)).reshape(columns.shape)
-        return solved.transpose(1, 0, 2).reshape(rows.shape)
-
-    def strain(self, K: DeltaComplex, dx: Floats) -> float:
-        return _strain(K, self._displacement(dx))
-
-    def _displacement(self, x: Floats) -> Floats:
-        return x.reshape(self.given.n_vertices, -1)
-
-
-@dataclass(frozen=True, eq=False)
-class SmoothChart:
-    """Vertices move by combinations of given functions, one for each coordinate of space."""
-
-    given: DeltaComplex
-    basis: Floats  # (n, k)
-    smoothing: float
-
-    @classmethod
-    def of(cls, K: DeltaComplex, functions: ArrayLike, smoothing: float) -> SmoothChart:
+    def of(cls, K: DeltaComplex, functions: ArrayLike | None, smoothing: float) -> VertexChart:
         """The chart around a surface with positions, for functions (n, k) at its vertices.
 
         Raises
         ------
         ValueError
-            If the functions have another shape, are not finite, or are linearly dependent.
+            If the functions have another shape, are not finite, or are linearly dependent; or if
+            the smoothing is negative.
         ComplexError
             If there are no positions.
         """
         edge_directions(K)
+        if not 0.0 <= smoothing < np.inf:
+            raise ValueError(f"smoothing = {smoothing}: it is a number from 0 on.")
+        if functions is None:
+            return cls(K, smoothing)
         B = np.asarray(functions, dtype=np.float64)
         if B.ndim != 2 or len(B) != K.n_vertices or not np.isfinite(B).all():
             raise ValueError(
                 f"a basis of displacements is a finite array of shape ({K.n_vertices}, k), a "
                 f"function on the vertices in each column; not {B.shape}."
             )
-        _check_smoothing(smoothing)
         if np.linalg.matrix_rank(B) < B.shape[1]:
             raise ValueError("the functions of the basis are linearly dependent, or nearly.")
-        return cls(K, B, smoothing)
+        return cls(K, smoothing, B)
 
     def start(self) -> Floats:
-        assert self.given.positions is not None
-        return np.zeros(self.basis.shape[1] * self.given.positions.shape[1])
+        """No displacement."""
+        n, d = np.shape(self._positions)
+        return np.zeros(d * (n if self.basis is None else self.basis.shape[1]))
 
     def surface(self, x: Floats) -> DeltaComplex:
-        return with_positions(self.given, self.given.positions + self._displacement(x))
+        """The mesh with its vertices displaced."""
+        return with_positions(self.given, self._positions + self._displacement(x))
 
     def rows(self, K: DeltaComplex, gradient: Gradient) -> Floats:
+        """Gradients by vertices, restricted to the functions of the basis."""
         assert gradient.vertices is not None
-        return (self.basis.T @ gradient.vertices).reshape(len(gradient.vertices), -1)
+        by_vertex = gradient.vertices
+        if self.basis is not None:
+            by_vertex = self.basis.T @ by_vertex
+        return np.asarray(by_vertex.reshape(len(by_vertex), -1))
 
     def raised(self, K: DeltaComplex, rows: Floats) -> Floats:
-        k = self.basis.shape[1]
-        norm = self.basis.T @ (displacement_norm(K, self.smoothing) @ self.basis)
-        columns = rows.reshape(len(rows), k, -1).transpose(1, 0, 2)
-        solved = scipy.linalg.solve(norm, columns.reshape(k, -1), assume_a="pos")
+        """The norm is that of :func:`displacement_norm`, the same in each coordinate."""
+        norm, d = displacement_norm(K, self.smoothing), self._positions.shape[1]
+        columns = rows.reshape(len(rows), -1, d).transpose(1, 0, 2)
+        load = columns.reshape(len(columns), -1)
+        if self.basis is None:
+            solved = solve(factor(csc_matrix(sparse.tril(norm))), load)
+        else:
+            solved = np.linalg.solve(self.basis.T @ (norm @ self.basis), load)
         return np.asarray(solved.reshape(columns.shape).transpose(1, 0, 2).reshape(rows.shape))
 
     def strain(self, K: DeltaComplex, dx: Floats) -> float:
-        return _strain(K, self._displacement(dx))
+        """How much the ends of an edge move apart or turn, relative to its length."""
+        moved = self._displacement(dx)
+        tail, head, _ = edge_directions(K)
+        relative = np.linalg.norm(moved[head] - moved[tail], axis=1) / edge_lengths(K)
+        return float(relative.max())
+
+    @property
+    def _positions(self) -> Floats:
+        assert self.given.positions is not None
+        return self.given.positions
 
     def _displacement(self, x: Floats) -> Floats:
-        return np.asarray(self.basis @ x.reshape(self.basis.shape[1], -1))
+        coefficients = x.reshape(-1, self._positions.shape[1])
+        return coefficients if self.basis is None else np.asarray(self.basis @ coefficients)
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,18 +153,23 @@ class LengthChart:
     given: DeltaComplex
 
     def start(self) -> Floats:
+        """The lengths as they are."""
         return np.zeros(self.given.n_edges)
 
     def surface(self, x: Floats) -> DeltaComplex:
+        """The triangulation with the lengths times eˣ."""
         return with_edge_lengths(self.given, edge_lengths(self.given) * np.exp(x))
 
     def rows(self, K: DeltaComplex, gradient: Gradient) -> Floats:
+        """Gradients by the logarithms of the lengths."""
         return gradient.lengths * edge_lengths(K)
 
     def raised(self, K: DeltaComplex, rows: Floats) -> Floats:
+        """The norm is that of :func:`strain_norm`."""
         return solve(factor(csc_matrix(sparse.tril(strain_norm(K)))), rows.T).T
 
     def strain(self, K: DeltaComplex, dx: Floats) -> float:
+        """The largest eigenvalue of ε."""
         traces, mu = _strains(K)
         sides = dx[K.edge]
         trace, shear = (np.sum(part * sides, axis=1) for part in (traces, mu))
@@ -207,7 +189,7 @@ def strain_norm(K: DeltaComplex) -> csc_array:
 
 
 def _strains(K: DeltaComplex) -> tuple[Floats, Complexes]:
-    """tr ε and μ of each face per logarithm of each side; (m, 3) both."""
+    """The trace of ε and μ of each face per logarithm of each side; (m, 3) both."""
     E = side_vectors(K.lengths)
     area = face_areas(K)
     traces = K.lengths**2 * cotangents(K.lengths) / (2.0 * area[:, None])
@@ -220,14 +202,3 @@ def displacement_norm(K: DeltaComplex, smoothing: float) -> csc_array:
     area = face_areas(flipped)
     masses = sparse.diags_array(spread_to_vertices(flipped, area) / area.sum())
     return csc_array(masses + smoothing**2 * laplacian(flipped, cotan_weights(flipped)))
-
-
-def _check_smoothing(smoothing: float) -> None:
-    if not 0.0 <= smoothing < np.inf:
-        raise ValueError(f"smoothing = {smoothing}: it is a number from 0 on.")
-
-
-def _strain(K: DeltaComplex, displacement: Floats) -> float:
-    tail, head, _ = edge_directions(K)
-    relative = np.linalg.norm(displacement[head] - displacement[tail], axis=1) / edge_lengths(K)
-    return float(relative.max())

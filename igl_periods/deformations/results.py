@@ -73,7 +73,7 @@ class Deformation:
 
     @property
     def certified_distance(self) -> float | None:
-        """A bound of the Siegel distance of the exact matrix of the polyhedral surface to the target.
+        """A bound of the Siegel distance of the exact matrix of the surface to the target.
 
         All |log λ| between the exact matrix and the computed one are at most log(1 + bound); None
         without a certificate.

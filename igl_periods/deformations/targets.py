@@ -10,7 +10,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike
 
-from igl_periods.arrays import Complexes, Floats, Ints
+from igl_periods.arrays import Complexes, Ints
 from igl_periods.complexes import DeltaComplex, MarkedComplex
 from igl_periods.errors import ComplexError
 from igl_periods.moduli import nearest_marking
@@ -19,9 +19,9 @@ from igl_periods.run_log import logger, stage
 from igl_periods.siegel import check_siegel_point, siegel_distance, siegel_transform
 from igl_periods.topology import mark
 
-from .charts import Chart, LengthChart, SmoothChart, VertexChart
-from .gauss_newton import Computation, gauss_newton
-from .results import Deformation, DeformationWarning
+from .charts import Chart, LengthChart, VertexChart
+from .gauss_newton import GaussNewton
+from .results import Deformation, DeformationWarning, Step
 
 _TOLERANCE = 1e-10
 _MOST_STEPS = 200
@@ -87,7 +87,7 @@ def deform_to(
         ``verdict`` says why.
     """
     K = as_complex(V, F)
-    chart = _vertex_chart(K, basis, smoothing)
+    chart = VertexChart.of(K, basis, smoothing)
     return _deformed(chart, K, target, degree, keep_marking, tolerance, max_steps)
 
 
@@ -139,7 +139,7 @@ def deform_along(
         As :func:`deform_to`.
     """
     K = as_complex(V, F)
-    chart = _vertex_chart(K, basis, smoothing)
+    chart = VertexChart.of(K, basis, smoothing)
     return _followed(chart, K, path, tolerance)
 
 
@@ -148,12 +148,6 @@ def lengths_along(
 ) -> list[Deformation]:
     """Follow a path of period matrices with the lengths of a surface; see :func:`deform_along`."""
     return _followed(LengthChart(K), K, path, tolerance)
-
-
-def _vertex_chart(K: DeltaComplex, basis: ArrayLike | None, smoothing: float) -> Chart:
-    if basis is None:
-        return VertexChart.of(K, smoothing)
-    return SmoothChart.of(K, basis, smoothing)
 
 
 def _deformed(
@@ -172,11 +166,13 @@ def _deformed(
     if not keep_marking:
         point, gamma = _nearest(point, start)
     x = chart.start()
-    degrees = [(1, tolerance)] if degree == 1 else [(1, max(_COARSE, tolerance)), (degree, tolerance)]
-    steps = []
+    degrees = (
+        [(1, tolerance)] if degree == 1 else [(1, max(_COARSE, tolerance)), (degree, tolerance)]
+    )
+    steps: list[Step] = []
     for p, within in degrees:
         compute = partial(_computed, given, p)
-        x, pm, more, verdict = gauss_newton(chart, x, compute, point, within, max_steps)
+        x, pm, more, verdict = GaussNewton(chart, compute, point).run(x, within, max_steps)
         steps += more
         if verdict:
             break
@@ -189,11 +185,12 @@ def _followed(
     given = _marked(K, tolerance)
     points = [_checked_target(point, given) for point in np.asarray(path)]
     x, results = chart.start(), list[Deformation]()
-    compute: Computation = partial(_computed, given, 1)
+    compute = partial(_computed, given, 1)
     gamma = np.eye(given.rank, dtype=np.int64)
     for k, point in enumerate(points):
         with stage(f"point {k + 1} of {len(points)} of the path"):
-            x, pm, steps, verdict = gauss_newton(chart, x, compute, point, tolerance, _MOST_STEPS)
+            search = GaussNewton(chart, compute, point)
+            x, pm, steps, verdict = search.run(x, tolerance, _MOST_STEPS)
         results.append(_result(pm, point, gamma, steps, verdict))
         if verdict:
             break
@@ -234,7 +231,7 @@ def _nearest(point: Complexes, start: PeriodMatrix) -> tuple[Complexes, Ints]:
 
 
 def _result(
-    pm: PeriodMatrix, target: Complexes, gamma: Ints, steps: Floats, verdict: str
+    pm: PeriodMatrix, target: Complexes, gamma: Ints, steps: tuple[Step, ...], verdict: str
 ) -> Deformation:
     if verdict:
         warnings.warn(f"the target is not reached: {verdict}.", DeformationWarning, stacklevel=4)

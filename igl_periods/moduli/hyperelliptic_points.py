@@ -1,11 +1,11 @@
 r"""Hyperelliptic period matrices of genus 3 near a given one.
 
 In genus 3 a Riemann surface is hyperelliptic iff exactly one even theta constant vanishes (Mumford
-1984).  The equation θ(Π) = 0 is solved by Newton's method with steps that are shortest in Siegel's
-metric, :math:`\operatorname{tr} Y^{-1} \partial\Pi\, Y^{-1} \overline{\partial\Pi}`:
+1984).  The equation θ(Π) = 0 is solved by Newton's method, with the steps that are shortest in
+Siegel's metric :math:`\operatorname{tr} Y^{-1} \partial\Pi\, Y^{-1} \overline{\partial\Pi}`,
 
-.. math:: \partial\Pi = -\frac{\theta}{\langle \theta', \theta' \rangle}\; Y\, \overline{\theta'}\, Y,
-          \qquad \langle \theta', \theta' \rangle = \operatorname{tr} Y \theta'\, Y \overline{\theta'} .
+.. math:: \partial\Pi = -\frac{\theta}{|\theta'|^2}\; Y\, \overline{\theta'}\, Y, \qquad
+          |\theta'|^2 = \operatorname{tr} Y \theta'\, Y \overline{\theta'} .
 
 References
 ----------

@@ -6,6 +6,7 @@ and is not imported before.
 
 ===================  ==========================================================================
 ``scenes``           cycles, checkerboard, density, quality, cut
+``derivative_scenes``  sensitivity, quadratic differentials
 ``tubes``            closed walks as smooth tubes
 ``rendering``        scenes to pixels, by Open3D
 ``textured_meshes``  OBJ with MTL and PNG, and GLB
@@ -21,6 +22,7 @@ from .scenes import (
     plain_scene,
     quality_scene,
 )
+from .derivative_scenes import quadratic_scene, sensitivity_scene
 from .rendering import check_display, render, save, show, with_legend
 from .textured_meshes import write_glb, write_obj
 
@@ -31,6 +33,8 @@ __all__ = [
     "density_scene",
     "plain_scene",
     "quality_scene",
+    "quadratic_scene",
+    "sensitivity_scene",
     "Scene",
     "check_display",
     "render",

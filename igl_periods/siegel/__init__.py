@@ -39,7 +39,7 @@ from .half_space import (
     siegel_distance,
     siegel_transform,
 )
-from .geodesics import moduli_path, siegel_exponential, siegel_logarithm
+from .geodesics import moduli_path, orthonormal_weights, siegel_exponential, siegel_logarithm
 from .balls import ARRAY_ERROR, PRECISION, ball_matrix, to_flint
 from .lll import lll_basis
 from .enumeration import short_vectors
@@ -53,6 +53,7 @@ __all__ = [
     "siegel_distance",
     "siegel_transform",
     "moduli_path",
+    "orthonormal_weights",
     "siegel_exponential",
     "siegel_logarithm",
     "ARRAY_ERROR",

@@ -8,9 +8,9 @@ is
 .. math:: Z(t) = U \tanh(\tfrac t2 \log\lambda)\, U^T, \qquad
           \log_{\Pi_1} \Pi_2 = i\, L\, U \log\lambda\; U^T L^T ,
 
-the second being its initial velocity.  Its norm in Siegel's metric,
-:math:`\|\partial\Pi\|^2 = \operatorname{tr} Y^{-1} \partial\Pi\, Y^{-1} \overline{\partial\Pi}`, is
-the distance, :math:`\sum_i \log^2 \lambda_i`.  Takagi's U need not be known: if f is even,
+the second being its initial velocity.  Its square in Siegel's metric,
+:math:`\operatorname{tr} Y^{-1} \partial\Pi\, Y^{-1} \overline{\partial\Pi}`, is that of the
+distance, :math:`\sum_i \log^2 \lambda_i`.  Takagi's U need not be known: if f is even,
 :math:`U \sigma f(\sigma) U^T = f(\sqrt{Z Z^*})\, Z`.
 
 References
@@ -107,9 +107,29 @@ def moduli_path(Pi1: ArrayLike, Pi2: ArrayLike, n: int) -> Complexes:
     return np.stack([start, *inner, end])
 
 
+def orthonormal_weights(Pi: ArrayLike) -> Complexes:
+    """The W for which Re Σ W̄ ∂Π are orthonormal coordinates of tangents; (g (g + 1), g, g).
+
+    With Im Π = L Lᵀ they are the coordinates of L⁻¹ ∂Π L⁻ᵀ in the basis E_jj, (E_jk + E_kj)/√2 of
+    symmetric matrices, and i times it.
+
+    Raises
+    ------
+    NotASiegelPointError
+        If Π is no point of the half-space.
+    """
+    inverse = np.linalg.inv(np.linalg.cholesky(check_siegel_point(Pi).imag))
+    g = len(inverse)
+    j, k = np.triu_indices(g)
+    units = np.zeros((j.size, g, g), dtype=np.complex128)
+    size = np.where(j == k, 1.0, np.sqrt(0.5))
+    units[np.arange(j.size), j, k] = units[np.arange(j.size), k, j] = size
+    return np.asarray(inverse.T @ np.concatenate([units, 1j * units]) @ inverse)
+
+
 def _disk_point(start: Complexes, end: Complexes) -> tuple[Floats, Complexes]:
     """L with Im Π₁ = L Lᵀ, and the Z of Π₂ in the disk around Π₁."""
-    L = np.linalg.cholesky(start.imag)
+    L = np.asarray(np.linalg.cholesky(start.imag), dtype=np.float64)
     difference = np.linalg.solve(L, np.linalg.solve(L, end - start).T)
     unit = np.eye(len(L))
     return L, _symmetric(np.linalg.solve(difference + 2j * unit, difference))
