@@ -1,9 +1,9 @@
 r"""Gauss–Newton towards a period matrix, with Siegel's metric.
 
-With Π = X + iLLᵀ the entries of :math:`L^{-1}\, \partial\Pi\, L^{-T}` are coordinates of tangents in
-which Siegel's metric is Euclidean (:func:`~igl_periods.siegel.orthonormal_weights`).  The rows of
-the derivative J are their gradients.  Steps are :math:`dx = J^+ r` with the r of the geodesic to the
-target, J⁺ by singular values, of which only as many are used as surfaces have moduli.
+With Π = X + iLLᵀ the entries of :math:`L^{-1}\, \partial\Pi\, L^{-T}` are coordinates of tangents
+in which Siegel's metric is Euclidean (:func:`~igl_periods.siegel.orthonormal_weights`).  The rows
+of the derivative J are their gradients.  Steps are :math:`dx = J^+ r` with the r of the geodesic to
+the target, J⁺ by singular values, of which only as many are used as surfaces have moduli.
 
 A step is shortened until no edge changes by more than a fifth, every triangle keeps a part of its
 slack, and the distance to the target falls.  Where Π is a submersion the iteration is Newton's, and

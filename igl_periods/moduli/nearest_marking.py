@@ -26,8 +26,8 @@ from igl_periods.siegel import (
     siegel_reduce,
     siegel_transform,
 )
-from igl_periods.symplectic import product as integer_product
 from igl_periods.symplectic import energy_matrix, form_action, standard_form, unimodular_inverse
+from igl_periods.symplectic import product as integer_product
 
 from .equivalence import symplectic_isomorphisms
 
@@ -102,7 +102,8 @@ def _enumerated(moving: Complexes, fixed: Complexes, tolerance: float) -> Neares
 def _searched(moving: Complexes, fixed: Complexes) -> NearestMarking:
     """A search by transvections from where both matrices are reduced.
 
-    The forms U ω have the energies U G Uᵀ; tr G₀⁻¹ U G Uᵀ = Σ (λ + 1/λ) is least where λ are near 1.
+    The forms U ω have the energies U G Uᵀ, and tr G₀⁻¹ U G Uᵀ = Σ (λ + 1/λ) is small where the λ
+    are near 1.
     """
     (here, gamma), (there, gamma_there) = siegel_reduce(moving), siegel_reduce(fixed)
     G, inverse = energy_matrix(here), np.linalg.inv(energy_matrix(there))

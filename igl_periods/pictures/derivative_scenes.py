@@ -1,8 +1,9 @@
 r"""Pictures of derivatives: where Π is sensitive to the shape, and the quadratic differentials.
 
-If the metric is strained by ε, entries of Π move by :math:`\int \bar\mu\, \zeta_k \zeta_l` (Rauch), so
-the products ζ_kζ_l, holomorphic quadratic differentials, show which strain changes what: a stretch
-along the lines on which ζ_kζ_l > 0, the *horizontal* lines, or across them.  They have 4g − 4 zeros.
+If the metric is strained, Π_kl moves by :math:`\int \bar\mu\, \zeta_k \zeta_l` (Rauch), μ the
+traceless part of the strain.  So the products ζ_kζ_l, holomorphic quadratic differentials with 4g − 4
+zeros, show which strain changes what: a stretch along the lines on which ζ_kζ_l > 0, the
+*horizontal* ones, or across them.
 """
 
 from __future__ import annotations
@@ -55,13 +56,13 @@ def sensitivity_scene(pm: PeriodMatrix) -> Scene:
     )
 
 
-def quadratic_scene(pm: PeriodMatrix, k: int, l: int) -> Scene:
+def quadratic_scene(pm: PeriodMatrix, first: int, second: int) -> Scene:
     """The horizontal directions of ζ_kζ_l as strokes, and |ζ_kζ_l| in colours, logarithmic.
 
     Parameters
     ----------
-    k, l : int
-        From 1 on.
+    first, second : int
+        The k and l, from 1 on.
 
     Raises
     ------
@@ -70,12 +71,12 @@ def quadratic_scene(pm: PeriodMatrix, k: int, l: int) -> Scene:
     ComplexError
         If the surface has no positions in space.
     """
-    if not (1 <= k <= pm.genus and 1 <= l <= pm.genus):
-        raise ValueError(f"there is no product ζ_{k} ζ_{l}: the genus is {pm.genus}.")
+    if not (1 <= first <= pm.genus and 1 <= second <= pm.genus):
+        raise ValueError(f"there is no product ζ_{first} ζ_{second}: the genus is {pm.genus}.")
     K = pm.complex
     sheet = Sheet.of(K)
     zeta = normalised_differentials(pm)
-    p, _ = linear_parts(K, zeta[[k - 1, l - 1]])
+    p, _ = linear_parts(K, zeta[[first - 1, second - 1]])
     product = p[0] * p[1]
     area = face_areas(K)
     at_vertices = spread_to_vertices(K, np.abs(product) * area) / spread_to_vertices(K, area)
@@ -87,7 +88,7 @@ def quadratic_scene(pm: PeriodMatrix, k: int, l: int) -> Scene:
         tubes=_strokes(sheet, K, product),
         legend=scale_legend(10.0**low, 10.0**high),
         caption=(
-            f"The quadratic differential ζ_{k} ζ_{l}: its horizontal directions, and its size from "
+            f"The quadratic differential ζ_{first} ζ_{second}: its horizontal directions, and its size from "
             f"{10.0**low:.2g} (dark) to {10.0**high:.2g} (light), on a logarithmic scale."
         ),
     )

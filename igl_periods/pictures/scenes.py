@@ -257,6 +257,7 @@ class Sheet:
 
     @classmethod
     def of(cls, K: DeltaComplex) -> Sheet:
+        """The first sheet of a double, or the whole surface."""
         V, F = surface_in_space(K)
         vertex = np.arange(len(V))
         try:
@@ -287,6 +288,7 @@ def _viridis(values: Floats) -> Floats:
 
 
 def scale_legend(low: float, high: float) -> tuple[tuple[str, tuple[float, float, float]], ...]:
+    """The ends and the middle of a logarithmic scale, with their colours."""
     ends = _viridis(np.array([0.0, 0.5, 1.0]))
     values = (low, np.sqrt(low * high), high)
     return tuple(

@@ -2,8 +2,8 @@ r"""Geodesics of the Siegel upper half-space: the shortest way from one period m
 
 A real symplectic map takes Π₁ = X + iLLᵀ to i and Π₂ to :math:`W = L^{-1} (\Pi_2 - X) L^{-T}`, the
 Cayley transform to :math:`Z = (W - i)(W + i)^{-1}` in the disk of symmetric matrices with Z*Z < 1.
-With a Takagi factorisation :math:`Z = U \tanh(\tfrac12 \log \lambda)\, U^T` the geodesic from 0 to Z
-is
+With a Takagi factorisation :math:`Z = U \tanh(\tfrac12 \log \lambda)\, U^T` the geodesic from 0 to
+Z is
 
 .. math:: Z(t) = U \tanh(\tfrac t2 \log\lambda)\, U^T, \qquad
           \log_{\Pi_1} \Pi_2 = i\, L\, U \log\lambda\; U^T L^T ,
