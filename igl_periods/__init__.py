@@ -17,6 +17,7 @@ page.  In reading order:
 ``harmonic``       K, cochains → D, by linear functions
 ``elements``       K, cochains → D, by functions of high degree, conical at cone points
 ``periods``        D → Π and its bound
+``enclosures``     proofs in ball arithmetic: Π to as many digits as are asked for
 ``symplectic``     J, integer bases, the Williamson form: what D and Π have in common
 ``siegel``         Π → γ·Π reduced
 ``moduli``         Π₁, Π₂ → equivalence, symmetries, invariants
@@ -37,11 +38,12 @@ from .errors import (
     EnumerationLimitError,
     MemoryLimitError,
     MeshError,
+    MissingExtraError,
     NotASiegelPointError,
     PeriodsError,
     RenderError,
 )
-from .meshes import MeshReport, load_mesh, split_components
+from .meshes import MeshReport, load_mesh, sample_files, split_components
 from .complexes import DeltaComplex, double, intrinsic_delaunay
 from .topology import (
     cohomology_basis,
@@ -63,6 +65,7 @@ from .periods import (
     richardson,
     sampled_torus,
 )
+from .enclosures import PeriodEnclosure, enclose
 from .siegel import (
     SIEGEL_GENUS_LIMIT,
     SiegelReduction,
@@ -122,6 +125,7 @@ __all__ = [
     # meshes and complexes
     "load_mesh",
     "split_components",
+    "sample_files",
     "MeshReport",
     "DeltaComplex",
     "double",
@@ -136,6 +140,8 @@ __all__ = [
     "period_matrix",
     "period_matrix_from_weights",
     "PeriodMatrix",
+    "enclose",
+    "PeriodEnclosure",
     "ToleranceWarning",
     "mesh_quality",
     "refined_period_matrix",
@@ -202,6 +208,7 @@ __all__ = [
     "ComplexError",
     "NotASiegelPointError",
     "MemoryLimitError",
+    "MissingExtraError",
     "EnumerationLimitError",
     "RenderError",
     "BatchError",

@@ -8,6 +8,7 @@
     ├── NotASiegelPointError       … no point of the Siegel upper half-space            ValueError
     ├── NotPositiveDefiniteError   … no positive definite matrix                        ValueError
     ├── MemoryLimitError           it would take more memory than there may be          ValueError
+    ├── MissingExtraError          packages of an extra are missing          ImportError, ValueError
     ├── EnumerationLimitError      a search of a lattice was given up                   RuntimeError
     ├── RenderError                this machine cannot draw                             RuntimeError
     └── BatchError                 a cluster cannot be used                             RuntimeError
@@ -42,6 +43,10 @@ class NotPositiveDefiniteError(PeriodsError, ValueError):
 
 class MemoryLimitError(PeriodsError, ValueError):
     """A computation that would take more memory than there is, or than it was allowed."""
+
+
+class MissingExtraError(PeriodsError, ImportError, ValueError):
+    """Packages of an extra of the installation are missing; the message ends with the command."""
 
 
 class EnumerationLimitError(PeriodsError, RuntimeError):

@@ -1,4 +1,4 @@
-"""Meshes made by others, from the folder named by IGL_PERIODS_MESHES."""
+"""Meshes made by others, from the folder named by IGL_PERIODS_MESHES; surfaces computed once."""
 
 import os
 from collections.abc import Callable
@@ -7,8 +7,11 @@ from pathlib import Path
 import igl
 import numpy as np
 import pytest
+from support.parametrized_surfaces import EMPTY, genus_three, genus_two
+from support.random_surfaces import BOLZA, noisy_torus, torus_of_revolution
 
 import igl_periods as ip
+from igl_periods.complexes.midpoint_subdivision import split
 
 
 @pytest.fixture(scope="session")
@@ -37,3 +40,16 @@ def computed(mesh) -> Callable[[str], ip.PeriodMatrix]:
         return cache[name]
 
     return compute
+
+
+@pytest.fixture(scope="session")
+def surfaces():
+    complexes = {
+        "noisy torus": ip.DeltaComplex.from_mesh(*noisy_torus(9, 7, 0.15, 3)),
+        "torus of revolution": ip.DeltaComplex.from_mesh(*torus_of_revolution(2.0, 0.7, 20, 12)),
+        "genus 2": genus_two(),
+        "genus 3": genus_three(),
+        # Glued squares make a simplicial complex after two divisions.
+        "squares": split(*split(ip.DeltaComplex.from_squares(BOLZA, 1), EMPTY))[0],
+    }
+    return {name: ip.period_matrix(K).reduced() for name, K in complexes.items()}

@@ -5,16 +5,16 @@ import subprocess
 import sys
 
 import igl
-import numpy as np
 import pytest
 
 import igl_periods as ip
 from igl_periods import memory
 from igl_periods.cli.program import main
-from igl_periods.periods.memory_estimates import room_for_forms
-from igl_periods.surfaces import square_tiled_surface, thickened_lattice
+from igl_periods.surfaces import thickened_lattice
 
 LATTICE = thickened_lattice((4, 3, 3), 2, jitter=0.1)
+
+
 N, M = len(LATTICE[0]), len(LATTICE[1])
 
 
@@ -36,26 +36,6 @@ def test_too_little_memory_on_the_machine(monkeypatch):
         ip.period_matrix(*LATTICE)
 
 
-def test_high_order_is_refused_too():
-    K = square_tiled_surface("omega_1", n=4)
-    allowed = 2e6
-    assert ip.period_matrix(K, max_memory=allowed).genus == 2
-    with pytest.raises(ip.MemoryLimitError, match=r"4 forms of degree 12 on \d+ faces take about"):
-        ip.period_matrix(K, degree=12, max_memory=allowed)
-
-
-def test_just_enough_memory_gives_the_same_matrix():
-    # The least that is not refused leaves room for 64 of 80 functions.
-    K = ip.DeltaComplex.from_mesh(*LATTICE)
-    needed = 1e12 - room_for_forms(K, 1e12)
-    least = 1.001 * (needed + 8 * K.n_vertices * 64)
-    whole, tight = ip.period_matrix(K), ip.period_matrix(K, max_memory=least)
-    assert abs(whole.bound - tight.bound) < 1e-12
-    assert np.abs(whole.matrix - tight.matrix).max() < 1e-9
-    with pytest.raises(ip.MemoryLimitError):
-        ip.period_matrix(K, max_memory=0.9 * needed)
-
-
 @pytest.mark.skipif(sys.platform != "linux", reason="limits of address space are those of Linux")
 def test_limits_of_the_process_count():
     code = """
@@ -67,14 +47,6 @@ resource.setrlimit(resource.RLIMIT_AS, (used + 10_000_000, resource.RLIM_INFINIT
 assert available_memory() <= 10_000_000 < free
 """
     subprocess.run([sys.executable, "-c", code], check=True)
-
-
-@pytest.mark.parametrize("handles", [0, 40])
-def test_estimates_grow_with_size_and_genus(handles):
-    small = thickened_lattice((2, 2, 2), 4)
-    large = thickened_lattice((2, 2, 2 + handles // 4), 8)
-    room = [room_for_forms(ip.DeltaComplex.from_mesh(*mesh), 1e9) for mesh in (small, large)]
-    assert room[1] < room[0] < 1e9
 
 
 def test_the_command_line_takes_a_limit(tmp_path, capsys):

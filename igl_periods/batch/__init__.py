@@ -10,12 +10,24 @@ it stopped; when all files have their rows, they are written in the order of the
 (:mod:`igl_periods.batch.rows`), however many workers there are.
 """
 
-from igl_periods.errors import BatchError as BatchError
+from igl_periods.errors import BatchError
 
-from .cluster import local_cluster as local_cluster
-from .cluster import remote_cluster as remote_cluster
-from .files import find_files as find_files
-from .rows import BatchOptions as BatchOptions
-from .rows import rows_of as rows_of
-from .run import BatchResult as BatchResult
-from .run import run_batch as run_batch
+from igl_periods.extras import require
+
+require("a batch", "dask", "distributed", "pyarrow")
+
+from .files import find_files
+from .rows import BatchOptions, rows_of
+from .cluster import local_cluster, remote_cluster
+from .run import BatchResult, run_batch
+
+__all__ = [
+    "BatchError",
+    "find_files",
+    "BatchOptions",
+    "rows_of",
+    "local_cluster",
+    "remote_cluster",
+    "BatchResult",
+    "run_batch",
+]

@@ -8,7 +8,7 @@ from os import PathLike
 from pathlib import Path
 
 from igl_periods.errors import MeshError
-from igl_periods.meshes import SURFACE_EXTENSIONS
+from igl_periods.meshes import SURFACE_EXTENSIONS, is_surface_file
 
 
 def find_files(*sources: str | PathLike[str]) -> dict[str, Path]:
@@ -52,7 +52,7 @@ def _contents(place: Path) -> tuple[Path, list[Path]]:
             known = " ".join(SURFACE_EXTENSIONS)
             raise MeshError(f"there is no mesh in the folder {str(place)!r} or below it ({known}).")
         return place, found
-    if _is_surface(place.name):
+    if is_surface_file(place.name):
         return place.parent, [Path(place.name)]
     if not place.exists():
         raise FileNotFoundError(f"there is no folder and no list of paths {str(place)!r}")
@@ -64,12 +64,8 @@ def _below(folder: Path) -> Iterator[Path]:
         folders[:] = [name for name in folders if not name.startswith(".")]
         for path in (Path(here, name) for name in names if not name.startswith(".")):
             # Links to nothing are missing files; pipes and devices are no files at all.
-            if _is_surface(path.name) and (path.is_file() or not path.exists()):
+            if is_surface_file(path.name) and (path.is_file() or not path.exists()):
                 yield path
-
-
-def _is_surface(name: str) -> bool:
-    return Path(name).suffix.lower() in SURFACE_EXTENSIONS
 
 
 def _listed(file: Path) -> list[Path]:

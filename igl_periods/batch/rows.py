@@ -35,7 +35,7 @@ from typing import Any
 
 from threadpoolctl import ThreadpoolController
 
-from igl_periods.complexes import DeltaComplex
+from igl_periods.complexes import DeltaComplex, as_complex
 from igl_periods.meshes import MeshReport, components_by_genus, read_surface, surface_of
 from igl_periods.moduli import (
     absolute_igusa_invariants,
@@ -45,7 +45,6 @@ from igl_periods.moduli import (
 from igl_periods.periods import (
     PeriodMatrix,
     ToleranceWarning,
-    as_complex,
     check_options,
     period_matrix,
     reduced_if_feasible,
@@ -95,7 +94,7 @@ class BatchOptions:
     ----------
     repair, double : bool
         Repair meshes; take the doubles of the surfaces.
-    weights, delaunay, degree, tolerance
+    weights, delaunay, degree, tolerance, rigorous
         As in :func:`~igl_periods.period_matrix`.
 
     Raises
@@ -110,9 +109,10 @@ class BatchOptions:
     delaunay: bool = True
     degree: int = 1
     tolerance: float | None = None
+    rigorous: bool = False
 
     def __post_init__(self) -> None:
-        check_options(self.weights, self.degree, self.tolerance)
+        check_options(self.weights, self.degree, self.tolerance, self.rigorous)
 
     def as_json(self) -> str:
         """All options, in one order."""

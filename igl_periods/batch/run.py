@@ -12,13 +12,15 @@ from pathlib import Path
 from dask.system import CPU_COUNT
 from distributed import Client
 
+from igl_periods.display import facts_html
+
 from .cluster import local_cluster, outcomes
 from .journal import Journal
 from .rows import DIED, BatchOptions, Row, file_hash, refused_row
 from .table import write_rows
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class BatchResult:
     """What a batch did.
 
@@ -33,6 +35,16 @@ class BatchResult:
     rows: list[Row]
     computed: int
     kept: int
+
+    def __repr__(self) -> str:
+        return f"BatchResult({', '.join(f'{value} {name}' for name, value in self._facts())})"
+
+    def _repr_html_(self) -> str:
+        return facts_html("BatchResult", self._facts())
+
+    def _facts(self) -> list[tuple[str, int]]:
+        counts = len(self.rows), self.computed, self.kept, len(self.refused)
+        return list(zip(("rows", "files computed", "files kept", "rows refused"), counts))
 
     @property
     def refused(self) -> list[Row]:

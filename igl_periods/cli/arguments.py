@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 import argparse
+import warnings
 from typing import Any, TypeAlias
 
-from igl_periods.complexes import DeltaComplex
-from igl_periods.meshes import MeshReport, components_by_genus, read_surface, surface_of
-from igl_periods.periods import as_complex
+from igl_periods.complexes import DeltaComplex, as_complex, check_surface
+from igl_periods.errors import ComplexError, MeshError
+from igl_periods.meshes import (
+    WELD,
+    MeshReport,
+    components_by_genus,
+    read_surface,
+    surface_of,
+    way_out,
+)
 from igl_periods.run_log import stage
 
 ALL = "all"
@@ -21,9 +29,10 @@ def add_surface_arguments(command: argparse.ArgumentParser, several: bool = Fals
     command.add_argument(
         "mesh",
         metavar="MESH",
-        help="a mesh (OBJ, OFF, PLY, STL, …), or a gluing of triangles (.json)",
+        help="a mesh (OBJ, OFF, PLY, STL, 3MF, glTF, …), or a gluing of triangles (.json)",
     )
     add_reading_arguments(command)
+    add_repair_arguments(command)
     command.add_argument(
         "--component",
         type=_component if several else int,
@@ -46,6 +55,23 @@ def add_reading_arguments(command: argparse.ArgumentParser) -> None:
         help="take the double of a surface with boundary or without an orientation",
     )
     command.add_argument("--quiet", action="store_true", help="no progress on the terminal")
+
+
+def add_repair_arguments(command: argparse.ArgumentParser) -> None:
+    """Add how far a repair goes; each of them implies it."""
+    command.add_argument(
+        "--weld",
+        type=_part,
+        metavar="R",
+        help="repair, and weld boundary edges at most R apart, in parts of the diagonal "
+        f"({WELD:g}); 0: only at exactly the same place",
+    )
+    command.add_argument(
+        "--fill-holes",
+        type=_size,
+        metavar="SIZE",
+        help="repair, and fill holes of at most SIZE edges",
+    )
 
 
 def add_period_arguments(command: argparse.ArgumentParser) -> None:
@@ -71,6 +97,11 @@ def add_period_arguments(command: argparse.ArgumentParser) -> None:
         metavar="R",
         help="raise the degree until the certified bound is at most R",
     )
+    command.add_argument(
+        "--rigorous",
+        action="store_true",
+        help="prove the bound in ball arithmetic, roundings included",
+    )
 
 
 def add_memory_argument(command: argparse.ArgumentParser) -> None:
@@ -90,17 +121,49 @@ def memory_limit(options: argparse.Namespace) -> dict[str, float]:
 
 def chosen_options(options: argparse.Namespace) -> dict[str, Any]:
     """The keywords of :func:`~igl_periods.period_matrix` that decide about the result."""
-    return {name: getattr(options, name) for name in ("weights", "delaunay", "degree", "tolerance")}
+    names = ("weights", "delaunay", "degree", "tolerance", "rigorous")
+    return {name: getattr(options, name) for name in names}
 
 
 def read_surfaces(options: argparse.Namespace) -> tuple[list[DeltaComplex], MeshReport | None]:
-    """The surfaces that are meant, and the report of a mesh; a gluing (.json) has none."""
+    """The surfaces that are meant, and the report of a mesh; a gluing (.json) has none.
+
+    Raises
+    ------
+    ValueError
+        If one of them is not closed, oriented and connected, with the way out and the report.
+    """
+    how = {"weld": options.weld, "largest_hole": options.fill_holes}
+    chosen = {name: value for name, value in how.items() if value is not None}
     with stage("reading the file"):
-        surface, report = read_surface(options.mesh, options.repair)
-    K = as_complex(*surface)
+        surface, report = read_surface(options.mesh, options.repair or bool(chosen), **chosen)
+    try:
+        K = as_complex(*surface)
+        surfaces = _chosen_surfaces(K, options)
+        for part in surfaces:
+            check_surface(part)
+    except (MeshError, ComplexError) as error:
+        if report is None:
+            raise
+        raise type(error)(_explained(error, report)) from error
+    if options.double and report and report.result.seam_edges:
+        warnings.warn(f"the double of a torn surface: {way_out(report)}", stacklevel=2)
+    return surfaces, report
+
+
+def _explained(error: Exception, report: MeshReport) -> str:
+    """What is wrong, the way out for this mesh, and what was found and done."""
+    why, way = str(error), way_out(report)
+    if way:
+        # The first sentence says what is wrong, the others what it may be in any mesh.
+        why = f"{why.partition('. ')[0].rstrip('.')}. {way}"
+    return f"{why}\n{report}"
+
+
+def _chosen_surfaces(K: DeltaComplex, options: argparse.Namespace) -> list[DeltaComplex]:
     if options.component == ALL:
-        return components_by_genus(surface_of(K, options.double)), report
-    return [surface_of(K, options.double, options.component)], report
+        return components_by_genus(surface_of(K, options.double))
+    return [surface_of(K, options.double, options.component)]
 
 
 def mesh_in_words(options: argparse.Namespace, report: MeshReport | None) -> str:
@@ -112,6 +175,26 @@ def mesh_in_words(options: argparse.Namespace, report: MeshReport | None) -> str
 def heading(k: int, n: int) -> str:
     """What stands above the k-th of n surfaces."""
     return f"\nComponent {k + 1} of {n}" if n > 1 else ""
+
+
+def repair_options(options: argparse.Namespace) -> dict[str, float]:
+    """How far the repair goes, as far as it was said."""
+    given = {"weld": options.weld, "fill_holes": options.fill_holes}
+    return {name: value for name, value in given.items() if value is not None}
+
+
+def _part(text: str) -> float:
+    value = float(text)
+    if not 0.0 <= value < 0.01:
+        raise argparse.ArgumentTypeError(f"a part of the diagonal from 0 to 0.01, not {text}")
+    return value
+
+
+def _size(text: str) -> int:
+    value = int(text)
+    if value < 0:
+        raise argparse.ArgumentTypeError(f"a number of edges, not {text}")
+    return value
 
 
 def _component(text: str) -> int | str:

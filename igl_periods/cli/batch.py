@@ -9,7 +9,8 @@ from contextlib import ExitStack, contextmanager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
-from igl_periods.wording import counted
+from igl_periods.display import counted
+from igl_periods.extras import require
 
 from .arguments import Commands, add_period_arguments, add_reading_arguments, chosen_options
 from .terminal import refused, say
@@ -110,6 +111,7 @@ def _run(options: argparse.Namespace, chosen: BatchOptions) -> BatchResult:
 @contextmanager
 def _progress(quiet: bool) -> Iterator[Callable[[int, int, int], None]]:
     """A bar on the terminal, and on nothing else, from the first call on."""
+    require("a batch", "tqdm")
     from tqdm import tqdm
 
     with ExitStack() as stack:

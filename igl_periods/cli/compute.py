@@ -30,6 +30,7 @@ from .arguments import (
     memory_limit,
     mesh_in_words,
     read_surfaces,
+    repair_options,
 )
 from .terminal import say
 
@@ -99,7 +100,7 @@ def _document(
     if options.double and options.component is None:
         surfaces["mesh_marking"]["real_structure"] = real_structure(results[0][0]).tolist()
     names = ("repair", "double", "component", "reduce")
-    given = {name: getattr(options, name) for name in names}
+    given = {name: getattr(options, name) for name in names} | repair_options(options)
     return {
         "schema": SCHEMA,
         "version": importlib.metadata.version("igl_periods"),

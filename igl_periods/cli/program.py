@@ -12,8 +12,11 @@ import sys
 import warnings
 from collections.abc import Sequence
 
+from igl_periods.errors import MissingExtraError, PeriodsError
+
 from .batch import add_batch
 from .compute import add_compute
+from .demo import add_demo
 from .identify import add_identify
 from .render import add_render
 from .report import add_report
@@ -23,6 +26,7 @@ from .view import add_view
 
 # In the order in which they are listed.
 _COMMANDS = (
+    add_demo,
     add_compute,
     add_identify,
     add_render,
@@ -36,7 +40,7 @@ _COMMANDS = (
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns the exit code."""
     options = _parser().parse_args(arguments)
-    if sys.stderr.isatty() and not options.quiet:
+    if sys.stderr.isatty() and not getattr(options, "quiet", False):
         show_stages()
     try:
         with warnings.catch_warnings(record=True) as caught:
@@ -48,9 +52,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # Whoever reads the output has had enough, as ``head`` does.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
-    except OSError as error:
+    except (OSError, MissingExtraError) as error:
         return refused(str(error))
-    except ValueError as error:
+    except (ValueError, PeriodsError) as error:
         message, mesh = str(error), getattr(options, "mesh", "")
         return refused(message if mesh in message else f"{mesh}: {message}")
 

@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 
 from igl_periods.errors import RenderError
+from igl_periods.extras import require
 
 from .arguments import Commands
 from .picture_arguments import add_picture_command, add_scene_arguments, chosen_scene
@@ -28,6 +29,7 @@ def add_render(commands: Commands) -> None:
 def _render(options: argparse.Namespace) -> int:
     from igl_periods.pictures import render, save, with_legend
 
+    require("drawing", "open3d", "PIL")
     suffix = Path(options.output).suffix.lower()
     if suffix not in (".png", ".jpg", ".jpeg"):
         raise ValueError(f"a picture is a PNG or JPEG file; {options.output} is neither.")

@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from igl_periods.extras import require
+
 from .arguments import Commands
 from .picture_arguments import add_picture_command, reduced_surface
 from .terminal import say
@@ -19,6 +21,7 @@ def add_report(commands: Commands) -> None:
 def _report(options: argparse.Namespace) -> int:
     from igl_periods.reports import write_report
 
+    require("a report", "matplotlib", "open3d", "PIL")
     pm, mesh = reduced_surface(options)
     write_report(options.output, pm, name=Path(options.mesh).name, mesh=mesh)
     say(f"wrote {options.output}")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from igl_periods.extras import require
 from igl_periods.reports import parametrization_in_words
 
 from .arguments import Commands
@@ -32,6 +33,7 @@ def add_texture(commands: Commands) -> None:
 def _texture(options: argparse.Namespace) -> int:
     from igl_periods.pictures import write_glb, write_obj
 
+    require("a texture", "PIL")
     writers = {".obj": write_obj, ".glb": write_glb}
     suffix = Path(options.output).suffix.lower()
     if suffix not in writers:

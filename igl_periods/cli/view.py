@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 
 from igl_periods.errors import RenderError
+from igl_periods.extras import require
 
 from .arguments import Commands
 from .picture_arguments import add_picture_command, add_scene_arguments, chosen_scene
@@ -20,6 +21,7 @@ def add_view(commands: Commands) -> None:
 def _view(options: argparse.Namespace) -> int:
     from igl_periods.pictures import check_display, show
 
+    require("drawing", "open3d")
     try:
         check_display()
         scene = chosen_scene(options)

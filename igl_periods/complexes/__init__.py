@@ -22,6 +22,8 @@ barycentres, the double.  The surface stays what it is, and the classes go along
 ``gluings``               which side is glued to which: twins, vertices, components
 ``glued_squares``         unit squares glued along sides, and grids of them
 ``delta_complex``         the complex itself
+``mesh_readers``          who knows how to read a mesh that is no V, F
+``surface_arguments``     whatever is called a surface, as a complex
 ``surface_checks``        closed, oriented, connected: what a period matrix needs
 ``half_edges``            both directions of every edge
 ``weights``               cotangent and extrinsic weights, cone angles
@@ -53,6 +55,7 @@ from .gluings import (
     components_of,
     corner_vertices,
     face_components,
+    MOST_TRIANGLES,
     index_type,
     next_corner,
     orientable_faces,
@@ -60,25 +63,30 @@ from .gluings import (
 )
 from .glued_squares import periodic_grid, squares
 from .half_edges import edge_ends, forward_half_edges, half_edge_ends, walk_vertices
+from .exact_lengths import (
+    ExactLengths,
+    LengthsByKind,
+    by_kind,
+    circumradius,
+    lattice_length,
+    root_of,
+)
+from .mesh_readers import is_array_like, mesh_reader
 from .delta_complex import DeltaComplex
+from .surface_arguments import (
+    BYTES_A_FACE_FLIPPING,
+    SurfaceLike,
+    as_complex,
+    of_a_surface,
+    of_a_surface_or,
+)
 from .surface_checks import check_closed_and_oriented, check_connected, check_surface, is_orientable
 from .weights import cone_angles, cotan_weights, extrinsic_weights
 from .cochains import along_sides, primitive
 from .marked_complex import MarkedComplex
-from .delaunay import (
-    Flips,
-    cocircularity_allowance,
-    delaunay_flips,
-    intrinsic_delaunay,
-    transport,
-)
+from .delaunay import Flips, cocircularity_allowance, delaunay_flips, intrinsic_delaunay, transport
 from .moved_lengths import edge_directions, edge_lengths, with_edge_lengths, with_positions
-from .flip_derivatives import (
-    FlipDerivative,
-    flip_derivatives,
-    pull_back,
-    push_forward,
-)
+from .flip_derivatives import FlipDerivative, flip_derivatives, pull_back, push_forward
 from .midpoint_subdivision import split
 from .barycentre_insertion import insert_barycentres
 from .doubling import Involution, double, involution, lift
@@ -97,6 +105,7 @@ __all__ = [
     "checked_positions",
     "components_of",
     "corner_vertices",
+    "MOST_TRIANGLES",
     "index_type",
     "next_corner",
     "periodic_grid",
@@ -112,7 +121,20 @@ __all__ = [
     "check_connected",
     "check_surface",
     "is_orientable",
+    "is_array_like",
+    "mesh_reader",
     "DeltaComplex",
+    "BYTES_A_FACE_FLIPPING",
+    "SurfaceLike",
+    "as_complex",
+    "of_a_surface",
+    "of_a_surface_or",
+    "ExactLengths",
+    "LengthsByKind",
+    "by_kind",
+    "circumradius",
+    "lattice_length",
+    "root_of",
     "cone_angles",
     "cotan_weights",
     "extrinsic_weights",
@@ -121,9 +143,9 @@ __all__ = [
     "MarkedComplex",
     "cocircularity_allowance",
     "delaunay_flips",
+    "Flips",
     "intrinsic_delaunay",
     "transport",
-    "Flips",
     "FlipDerivative",
     "edge_directions",
     "edge_lengths",

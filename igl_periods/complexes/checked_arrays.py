@@ -118,11 +118,13 @@ def checked_lengths(lengths: ArrayLike, n_faces: int) -> Floats:
 
 
 def checked_array(values: ArrayLike, name: str, error: type[ValueError]) -> NDArray[Any]:
-    """``numpy.asarray(values)``, or the error where rows have different lengths."""
+    """``numpy.asarray(values)``, or the error where that is impossible."""
     try:
         return np.asarray(values)
     except ValueError as ragged:
         raise error(f"{name} is no rectangular array: its rows have different lengths.") from ragged
+    except (TypeError, RuntimeError) as refused:
+        raise error(f"{name} cannot be made an array: {refused}") from refused
 
 
 def check_equal_when_glued(values: Floats, twin: Ints, name: str) -> None:

@@ -52,8 +52,8 @@ class Flips:
     """One round of flips: the edges flipped, and the cochain on each in terms of its sides.
 
     ``c[edge] = first_sign c[first] + second_sign c[second]`` for every closed cochain c.  Seen
-    from the edge A B that is flipped, with the new diagonal from p to q, ``first`` is A q,
-    ``second`` p A, ``third`` q B and ``fourth`` B p.
+    along the old edge from A to B, with p on its left and q on its right, the sides are
+    ``first`` A q, ``second`` p A, ``third`` B p and ``fourth`` q B.
     """
 
     edge: Ints
@@ -133,6 +133,7 @@ def delaunay_flips(K: DeltaComplex) -> tuple[DeltaComplex, list[Flips]]:
         sign=mesh.sign.reshape(-1, 3),
         corner_vertex=mesh.corner_vertex.reshape(-1, 3),
         distortion=mesh.distortion,
+        exact_lengths=None,
     )
     return flipped, rounds
 
@@ -245,9 +246,8 @@ class _FlippableMesh:
         p, a, q, b = (self.corner_vertex[corner] for corner in (h, bp, t, aq))
         old = np.concatenate([aq, pa, bp, qb])
         new = np.concatenate([here, here + 2, there, there + 2])
-        signs = -self.sign[aq], -self.sign[pa]
-        sides = self.edge[aq], self.edge[pa], self.edge[qb], self.edge[bp]
-        flips = Flips(edges, sides[0], signs[0], sides[1], signs[1], sides[2], sides[3])
+        sides = self.edge[[aq, pa, bp, qb]]
+        flips = Flips(edges, sides[0], -self.sign[aq], sides[1], -self.sign[pa], sides[2], sides[3])
 
         self._move(old, new)
         self._place_diagonal(edges, here + 1, there + 1, diagonal)

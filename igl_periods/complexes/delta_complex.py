@@ -33,12 +33,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import TYPE_CHECKING
 
 import igl
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from igl_periods.arrays import Floats, Ints
+from igl_periods.display import counted, facts_html
 from igl_periods.errors import MeshError
 
 from .checked_arrays import (
@@ -49,6 +52,7 @@ from .checked_arrays import (
     checked_lengths,
     checked_positions,
 )
+from .exact_lengths import ExactLengths, by_kind, root_of
 from .glued_squares import squares
 from .gluings import (
     checked_same,
@@ -60,8 +64,12 @@ from .gluings import (
     reversing_sides,
     twins_of_faces,
 )
-from .surface_checks import check_surface
+from .mesh_readers import vertices_and_faces
+from .surface_checks import check_surface, topology_in_words
 from .triangles import mollify
+
+if TYPE_CHECKING:
+    from .surface_arguments import SurfaceLike
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -97,6 +105,10 @@ class DeltaComplex:
     distortion : (m,) float or None
         How much rounding may have changed the metric of each face since the complex was given,
         relative to it and in units of the machine epsilon; None where nothing was changed.
+    exact_lengths : function or None
+        The lengths of the edges as balls, for a precision in bits, where the doubles in ``lengths``
+        are rounded (:mod:`igl_periods.complexes.exact_lengths`); what is proved is proved about
+        these.  Where there is no such function, the doubles are the lengths, exactly.
     """
 
     lengths: Floats
@@ -110,24 +122,37 @@ class DeltaComplex:
     positions: Floats | None = None
     mollification: float = 0.0
     distortion: Floats | None = None
+    exact_lengths: ExactLengths | None = None
 
     def __post_init__(self) -> None:
         for array in (self.lengths, self.twin, self.edge, self.sign, self.corner_vertex):
             array.flags.writeable = False
 
     def __repr__(self) -> str:
-        return (
-            f"DeltaComplex({self.n_vertices} vertices, {self.n_edges} edges, {self.n_faces} faces)"
-        )
+        sizes = [
+            counted(self.n_vertices, "vertex", "vertices"),
+            counted(self.n_edges, "edge", "edges"),
+            counted(self.n_faces, "face", "faces"),
+        ]
+        topology = ", ".join(topology_in_words(self))
+        return f"DeltaComplex({', '.join(sizes)}{'; ' if topology else ''}{topology})"
+
+    def _repr_html_(self) -> str:
+        sizes = [("vertices", self.n_vertices), ("edges", self.n_edges), ("faces", self.n_faces)]
+        facts = [*sizes, ("surface", ", ".join(topology_in_words(self)))]
+        if self.mollification:
+            facts.append(("mollification", f"{self.mollification:.3g}"))
+        return facts_html("DeltaComplex", facts)
 
     @classmethod
-    def from_mesh(cls, V: ArrayLike, F: ArrayLike) -> DeltaComplex:
+    def from_mesh(cls, V: SurfaceLike | ArrayLike, F: ArrayLike | None = None) -> DeltaComplex:
         """Make the polyhedral surface of a triangle mesh.
 
         Parameters
         ----------
         V : (n, d) array-like
-            Vertex positions in R^d, d ≥ 2.
+            Vertex positions in R^d, d ≥ 2; or, without F, one object that is a mesh
+            (:func:`~igl_periods.complexes.as_complex`).
         F : (m, 3) array-like of int
             Corners of each triangle, as rows of ``V``.  Two faces are glued where they share two
             corners.
@@ -141,8 +166,11 @@ class DeltaComplex:
         ComplexError
             If a triangle is degenerate beyond what mollification mends.
         """
-        positions = checked_positions(V)
-        faces = checked_faces(F, len(positions))
+        mesh = V if isinstance(V, DeltaComplex) else vertices_and_faces(V, F)
+        if isinstance(mesh, DeltaComplex):
+            return mesh
+        positions = checked_positions(mesh[0])
+        faces = checked_faces(mesh[1], len(positions))
         check_finite(positions, faces)
         lengths = igl.edge_lengths(positions, faces)
         return _from_simplicial(lengths, faces, positions)
@@ -223,7 +251,10 @@ class DeltaComplex:
         (4, 12, 8, 1)
         """
         lengths, twin = squares(gluing, n)
-        return _assemble(lengths, twin, np.zeros(twin.shape, dtype=bool))
+        K = _assemble(lengths, twin, np.zeros(twin.shape, dtype=bool))
+        diagonal = (K.lengths > 1.2 / n).astype(np.int64)
+        squared = [root_of(Fraction(1, n * n)), root_of(Fraction(2, n * n))]
+        return replace(K, exact_lengths=by_kind(K.edge, diagonal, squared))
 
     @property
     def n_faces(self) -> int:
@@ -357,5 +388,6 @@ def _check_fans(twin: Ints, same: NDArray[np.bool_], corner_vertex: Ints, labels
     bad = np.flatnonzero(count > 1)
     raise MeshError(
         f"{bad.size} vertices join more than one fan of faces; the first, vertex {labels[bad[0]]}, "
-        f"joins {count[bad[0]]}. The surface pinches there: split such vertices, one copy per fan."
+        f"joins {count[bad[0]]}. The surface pinches there: split such vertices, one copy per fan "
+        "(load_mesh(…, repair=True), --repair)."
     )

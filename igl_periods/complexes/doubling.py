@@ -24,11 +24,13 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from igl_periods.arrays import Ints
+from igl_periods.display import arrays_repr
 from igl_periods.errors import ComplexError
 
 from .delta_complex import DeltaComplex
 from .gluings import reversing_sides
 from .half_edges import forward_half_edges
+from .surface_arguments import of_a_surface
 
 # Corner (and side) c of a face is corner (and side) _MIRROR[c] of its copy.
 _MIRROR = np.array([0, 2, 1])
@@ -50,6 +52,8 @@ class Involution:
         Image of each edge, and +1 where σ keeps its direction, -1 where it reverses it.
     """
 
+    __repr__ = arrays_repr
+
     face: Ints
     vertex: Ints
     half_edge: Ints
@@ -63,13 +67,15 @@ class Involution:
         return csr_array(cochains @ matrix)
 
 
+@of_a_surface
 def double(K: DeltaComplex) -> DeltaComplex:
     """The complex double of a surface: closed, oriented, with an orientation-reversing isometry.
 
     Parameters
     ----------
-    K : DeltaComplex
-        With or without boundary, orientable or not, oriented consistently or not.
+    K : surface
+        As for :func:`~igl_periods.period_matrix`, with or without boundary, orientable
+        or not, oriented consistently or not.
 
     Returns
     -------

@@ -71,7 +71,7 @@ def flip_derivatives(K: DeltaComplex, rounds: list[Flips]) -> list[FlipDerivativ
     lengths = edge_lengths(K)
     derivatives = []
     for flips in rounds:
-        sides = np.stack([flips.edge, flips.second, flips.fourth, flips.first, flips.third], axis=1)
+        sides = np.stack([flips.edge, flips.second, flips.third, flips.first, flips.fourth], axis=1)
         diagonal, partial = _diagonals(lengths[sides])
         derivatives.append(FlipDerivative(flips.edge, sides, partial))
         lengths[flips.edge] = diagonal

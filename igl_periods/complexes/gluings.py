@@ -84,7 +84,8 @@ def _raise_crowded_edge(key: Ints, order: Ints, tail: Ints, head: Ints) -> None:
     raise MeshError(
         f"{bad.size} edges border more than two faces; the first, from vertex {tail[half_edge]} to "
         f"{head[half_edge]}, borders {count[bad[0]]}. A surface has at most two faces at an edge: "
-        "look for duplicate faces, internal walls or sheets that touch, and split them there."
+        "look for duplicate faces, internal walls or sheets that touch, and split them there "
+        "(load_mesh(…, repair=True), --repair)."
     )
 
 
@@ -177,7 +178,7 @@ def fans_are_whole(twin: Ints, corner_vertex: Ints, n_vertices: int) -> bool:
     # The corner at the same vertex in the face across the side before it.
     onward = twin.ravel()[next_corner(half_edge, 2)]
     onward = next_corner(onward, 2)
-    first = np.empty(n_vertices, dtype=np.int64)
+    first: Ints = np.empty(n_vertices, dtype=np.int64)
     first[corners] = half_edge
     met, corner = 0, first
     while corner.size:

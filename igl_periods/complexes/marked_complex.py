@@ -15,6 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
+from igl_periods.display import arrays_repr
+
 from .delta_complex import DeltaComplex
 
 Move = Callable[[DeltaComplex, csr_array], tuple[DeltaComplex, csr_array]]
@@ -36,6 +38,8 @@ class MarkedComplex:
     complex: DeltaComplex
     cochains: csr_array
     basis: NDArray[np.signedinteger]
+
+    __repr__ = arrays_repr
 
     @property
     def rank(self) -> int:

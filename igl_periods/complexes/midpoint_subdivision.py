@@ -26,7 +26,7 @@ stay integers, and the cohomology class stays the same.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from igl_periods.arrays import Floats, Ints
@@ -81,28 +81,6 @@ def split(K: DeltaComplex, cochains: csr_array) -> tuple[DeltaComplex, csr_array
         distortion=None if K.distortion is None else np.repeat(K.distortion, 4),
     )
     return refined, (cochains @ _carry(K, refined)).tocsr()
-
-
-def locate(face: ArrayLike, barycentric: ArrayLike) -> tuple[Ints, Floats]:
-    """Where points of a complex lie after :func:`split`.
-
-    Parameters
-    ----------
-    face : (n,) array-like of int
-    barycentric : (n, 3) array-like
-        Weights of the corners, adding up to 1.
-
-    Returns
-    -------
-    face : (n,) int
-    barycentric : (n, 3) float
-        On the line between two children, either of them.
-    """
-    weights = np.asarray(barycentric, dtype=np.float64)
-    child = np.where(weights.max(axis=1) > 0.5, np.argmax(weights, axis=1), 3)
-    at_corner = 2.0 * weights - (np.arange(3) == child[:, None])
-    located = np.where(child[:, None] < 3, at_corner, 1.0 - 2.0 * weights)
-    return 4 * np.asarray(face, dtype=np.int64) + child, located
 
 
 # The half of side s that comes first lies in child s + 1, the other in child s + 2; within the

@@ -6,12 +6,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from igl_periods.display import counted
 from igl_periods.errors import ComplexError
 
 from .gluings import face_components, orientable_faces, reversing_sides
 
 if TYPE_CHECKING:
     from .delta_complex import DeltaComplex
+
+
+# Faces up to which a complex says more than its size when it is shown.
+_QUICKLY_SHOWN = 200_000
 
 
 def check_surface(K: DeltaComplex) -> None:
@@ -30,8 +35,11 @@ def check_closed_and_oriented(K: DeltaComplex) -> None:
     """The first two thirds of :func:`check_surface`."""
     if K.n_boundary_edges:
         raise ComplexError(
-            f"the surface is not closed: it has {K.n_boundary_edges} boundary edges. Fill the "
-            "holes, or take the double of the surface (igl_periods.double, --double)."
+            f"the surface is not closed: it has {K.n_boundary_edges} boundary edges. "
+            "Where the file repeats vertices they are seams: weld them first (load_mesh(…, "
+            "repair=True), --repair). Holes can be filled (largest_hole=SIZE, --fill-holes SIZE), "
+            "and a surface with a true boundary has a double, which is closed "
+            "(igl_periods.double, --double)."
         )
     if K.n_reversing_edges:
         if is_orientable(K):
@@ -61,3 +69,16 @@ def check_connected(K: DeltaComplex) -> None:
 def is_orientable(K: DeltaComplex) -> bool:
     """Whether faces can be turned so that orientations agree."""
     return bool(orientable_faces(K.twin, reversing_sides(K.twin, K.sign)).all())
+
+
+def topology_in_words(K: DeltaComplex) -> list[str]:
+    """The genus, or what keeps the complex from having one; nothing where that takes long."""
+    if K.n_faces > _QUICKLY_SHOWN:
+        return []
+    n_components, _ = face_components(K.twin)
+    words = [f"{n_components} components"] if n_components != 1 else []
+    if K.n_boundary_edges:
+        words.append(counted(K.n_boundary_edges, "boundary edge", "boundary edges"))
+    if K.n_reversing_edges:
+        words.append("not oriented consistently" if is_orientable(K) else "not orientable")
+    return words or [f"genus {K.genus}"]

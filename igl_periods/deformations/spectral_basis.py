@@ -14,9 +14,8 @@ from scipy.sparse import csc_array, csr_array, diags_array
 from scipy.sparse.linalg import eigsh
 
 from igl_periods.arrays import Floats
-from igl_periods.complexes import DeltaComplex, cotan_weights, intrinsic_delaunay
+from igl_periods.complexes import DeltaComplex, as_complex, cotan_weights, intrinsic_delaunay
 from igl_periods.harmonic import face_areas, laplacian, spread_to_vertices
-from igl_periods.periods import as_complex
 
 _SHIFT = -1e-6
 

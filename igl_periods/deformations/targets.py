@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Complexes, Ints
-from igl_periods.complexes import DeltaComplex, MarkedComplex
+from igl_periods.complexes import DeltaComplex, MarkedComplex, as_complex
 from igl_periods.errors import ComplexError
 from igl_periods.moduli import nearest_marking
-from igl_periods.periods import PeriodMatrix, as_complex, certified_period_matrix, solve_forms
+from igl_periods.periods import PeriodMatrix, certified_period_matrix, solve_forms
 from igl_periods.run_log import logger, stage
 from igl_periods.siegel import check_siegel_point, siegel_distance, siegel_transform
 from igl_periods.topology import mark

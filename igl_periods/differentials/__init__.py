@@ -32,12 +32,11 @@ from .prescribed_periods import form_of_periods, form_of_real_periods
 __all__ = [
     "normalised_differentials",
     "AbelJacobi",
-    "parametrize",
     "abel_jacobi",
-    "most_even_form",
-    "Parametrization",
-    "parametrizeAbelJacobi",
     "form_of_periods",
     "form_of_real_periods",
     "evenness",
+    "most_even_form",
+    "Parametrization",
+    "parametrize",
 ]

@@ -19,6 +19,7 @@ import numpy as np
 
 from igl_periods.arrays import Complexes, Floats
 from igl_periods.complexes import along_sides, primitive
+from igl_periods.display import facts_html
 from igl_periods.periods import PeriodMatrix
 
 from .normalised import harmonic_forms_on_edges
@@ -38,6 +39,15 @@ class AbelJacobi:
 
     coordinates: Floats
     points: Complexes
+
+    def __repr__(self) -> str:
+        n, g = self.points.shape
+        return f"AbelJacobi({n} vertices in a Jacobian of dimension {g})"
+
+    def _repr_html_(self) -> str:
+        n, g = self.points.shape
+        facts = [("vertices", str(n)), ("Jacobian", f"C^{g} / (Z^{g} + Π Z^{g})")]
+        return facts_html("Abel–Jacobi map", facts)
 
 
 def abel_jacobi(pm: PeriodMatrix, base: int = 0) -> AbelJacobi:

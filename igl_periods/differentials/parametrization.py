@@ -32,6 +32,7 @@ from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Bools, Complexes, Floats, Ints
 from igl_periods.complexes import DeltaComplex, along_sides, primitive
+from igl_periods.display import facts_html
 from igl_periods.errors import ComplexError
 from igl_periods.harmonic import linear_parts
 from igl_periods.periods import PeriodMatrix
@@ -77,6 +78,25 @@ class Parametrization:
     uv: Complexes
     seams: Ints
     crossings: Ints
+
+    def __repr__(self) -> str:
+        return (
+            f"Parametrization(genus {self.periods.size // 2}, {self.cut.shape[0]} faces, "
+            f"{self.uv.size} vertices of the disk, cut along {self.seams.size} edges)"
+        )
+
+    def _repr_html_(self) -> str:
+        index, (median, tail) = self.index, np.percentile(self.dilatation, [50.0, 99.0])
+        facts = [
+            ("genus", str(self.periods.size // 2)),
+            ("faces", str(self.cut.shape[0])),
+            ("vertices of the disk", str(self.uv.size)),
+            ("cut along", f"{self.seams.size} edges"),
+            ("zeros", f"{np.count_nonzero(index > 0)}, of orders {index[index > 0].sum()} in all"),
+            ("reversed faces", str(np.count_nonzero(self.reversed_faces))),
+            ("dilatation", f"{median:.4g} in the median, {tail:.4g} at the 99th percentile"),
+        ]
+        return facts_html("Parametrization z = ∫ζ", facts)
 
     @property
     def corner_uv(self) -> Complexes:

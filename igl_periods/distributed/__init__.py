@@ -25,9 +25,9 @@ doubles; after that it keeps the surface, 115 bytes a triangle, for the result. 
 :math:`2^{31}/3`, 715 million, triangles go through SciPy's graph searches, which count half-edges
 in 32 bits; PETSc with 32-bit integers goes up to 4 · 10⁹.
 
-**Weak scaling.**  Measured with ``scripts/weak_scaling.py`` for genus 2 and residuals of 1e-8, on
-surfaces of 10⁴ or 5 · 10⁴ up to 6 · 10⁵ vertices (n vertices, N ranks, 2g solutions of k iterations
-each):
+**Weak scaling.**  Measured with ``scripts/measure/weak_scaling.py`` for genus 2 and residuals of
+1e-8, on surfaces of 10⁴ or 5 · 10⁴ up to 6 · 10⁵ vertices (n vertices, N ranks, 2g solutions of k
+iterations each):
 
 ========================  ==========================  ========================================
 what                      Lawson's surface, Delaunay  marching cubes, flipped
@@ -69,4 +69,6 @@ Balay et al., "PETSc/TAO Users Manual".
 Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 3.
 """
 
-from .pipeline import period_matrix as period_matrix
+from .pipeline import period_matrix
+
+__all__ = ["period_matrix"]

@@ -8,9 +8,14 @@ from typing import TYPE_CHECKING, Any
 from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Floats
-from igl_periods.complexes import DeltaComplex, MarkedComplex, intrinsic_delaunay
+from igl_periods.complexes import (
+    DeltaComplex,
+    MarkedComplex,
+    as_complex,
+    intrinsic_delaunay,
+)
 from igl_periods.harmonic import allowance_for_loss, dirichlet_matrix, extreme_sensitivity
-from igl_periods.periods import PeriodMatrix, as_complex, certified_period_matrix
+from igl_periods.periods import PeriodMatrix, certified_period_matrix
 from igl_periods.run_log import stage
 from igl_periods.topology import mark
 

@@ -78,6 +78,7 @@ __all__ = [
     "type_01",
     "type_10",
     "wedge",
+    "HodgeDecomposition",
     "hodge_decomposition",
     "holomorphic_forms",
     "symplectic_mean_forms",
@@ -88,6 +89,5 @@ __all__ = [
     "side_product",
     "quad_product",
     "on_diagonals",
-    "HodgeDecomposition",
     "periods",
 ]

@@ -53,7 +53,9 @@ from igl_periods.complexes import (
     cotangents,
     forward_half_edges,
     next_corner,
+    of_a_surface,
 )
+from igl_periods.display import facts_html
 from igl_periods.errors import ComplexError
 
 # Weights this small are rounding of 0, as they are for Delaunay flips: cotangents have a relative
@@ -92,6 +94,20 @@ class DoubleGraph:
     polygon: Ints
     sides: Ints
 
+    def __repr__(self) -> str:
+        primal, dual = self.complex.n_vertices, self.n_vertices - self.complex.n_vertices
+        return f"DoubleGraph({primal} vertices of Γ, {dual} of Γ*, {self.n_edges} edges of each)"
+
+    def _repr_html_(self) -> str:
+        facts = [
+            ("vertices of Γ", self.complex.n_vertices),
+            ("vertices of Γ*", self.n_vertices - self.complex.n_vertices),
+            ("edges of Γ, of Γ*, quadrilaterals", self.n_edges),
+            ("edges of the triangulation with ρ = 0", self.complex.n_edges - self.n_edges),
+            ("ρ", f"{self.rho.min():.3g} to {self.rho.max():.3g}"),
+        ]
+        return facts_html("DoubleGraph Λ = Γ ⊕ Γ*", facts)
+
     @property
     def n_edges(self) -> int:
         """Number of edges of Γ, of Γ*, and of quadrilaterals."""
@@ -103,13 +119,15 @@ class DoubleGraph:
         return int(self.polygon.max()) + 1
 
 
+@of_a_surface
 def double_graph(K: DeltaComplex, weights: ArrayLike | None = None) -> DoubleGraph:
     """The double graph of a Delaunay triangulation, or of abstract weights.
 
     Parameters
     ----------
-    K : DeltaComplex
-        Closed, oriented, connected; Delaunay unless weights are given.
+    K : surface
+        As for :func:`~igl_periods.period_matrix`: closed, oriented, connected; Delaunay
+        unless weights are given.
     weights : (n_edges,) array-like, optional
         ρ ≥ 0; the intrinsic cotangent weights of ``K`` where they are not given.
 

@@ -22,6 +22,7 @@ from typing import NamedTuple
 import numpy as np
 
 from igl_periods.arrays import Values
+from igl_periods.display import facts_html, shape_in_words
 from igl_periods.harmonic import factored_laplacian, harmonic_basis, solutions
 
 from .calculus import adjoint_d0, d1
@@ -41,6 +42,14 @@ class HodgeDecomposition(NamedTuple):
     exact: Values
     coexact: Values
     harmonic: Values
+
+    def __repr__(self) -> str:
+        return f"HodgeDecomposition(exact, coexact, harmonic: {shape_in_words(self.exact)} each)"
+
+    def _repr_html_(self) -> str:
+        names = zip(self._fields, ("d f", "*d g", "closed and co-closed"))
+        size = shape_in_words(self.exact)
+        return facts_html("HodgeDecomposition", [(n, f"{what}, {size}") for n, what in names])
 
 
 def hodge_decomposition(graph: DoubleGraph, alpha: Values) -> HodgeDecomposition:

@@ -38,13 +38,14 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from igl_periods.arrays import Complexes, Values
-from igl_periods.complexes import DeltaComplex
+from igl_periods.complexes import DeltaComplex, of_a_surface_or
 from igl_periods.harmonic import checked_basis, energy_factor, harmonic_basis, side_matrix
 from igl_periods.symplectic import siegel_point, standard_form, williamson_of_factor
 
 from .graph import DoubleGraph, double_graph
 
 
+@of_a_surface_or(DoubleGraph)
 def holomorphic_forms(
     K: DeltaComplex | DoubleGraph, cocycles: csr_array | None = None
 ) -> Complexes:
@@ -55,8 +56,8 @@ def holomorphic_forms(
 
     Parameters
     ----------
-    K : DeltaComplex or DoubleGraph
-        Closed, oriented, connected; Delaunay.
+    K : surface or DoubleGraph
+        As for :func:`~igl_periods.period_matrix`: closed, oriented, connected; Delaunay.
     cocycles : (2g, n_edges) sparse, optional
         A canonical basis of cohomology on the edges of ``K``; the default is
         ``cohomology_basis(K)``.  To stay in the marking of a period matrix ``pm`` while flipping
@@ -100,6 +101,7 @@ def holomorphic_forms(
     return np.stack([zeta, 1j * graph.weights * zeta], axis=1)
 
 
+@of_a_surface_or(DoubleGraph)
 def symplectic_mean_forms(
     K: DeltaComplex | DoubleGraph, cocycles: csr_array | None = None
 ) -> Complexes:

@@ -41,8 +41,10 @@ from .energies import (
     harmonic_problem,
     HarmonicProblem,
     linear_energies,
+    panels_of_columns,
     weighted_energies,
 )
+from .linear_forms import Jumps, LinearForms, blocks, gram_matrix
 from .harmonic_cochains import (
     checked_basis,
     harmonic_basis,
@@ -51,7 +53,6 @@ from .harmonic_cochains import (
     side_matrix,
 )
 from .constant_forms import face_areas, linear_parts, spread_to_vertices
-from .linear_forms import gram_matrix
 from .length_derivatives import (
     GradientBlocks,
     LinearGradients,
@@ -86,6 +87,10 @@ __all__ = [
     "harmonic_problem",
     "HarmonicProblem",
     "linear_energies",
+    "panels_of_columns",
+    "Jumps",
+    "LinearForms",
+    "blocks",
     "weighted_energies",
     "checked_basis",
     "harmonic_basis",

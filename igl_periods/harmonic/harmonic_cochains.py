@@ -12,7 +12,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from igl_periods.arrays import Floats
-from igl_periods.complexes import DeltaComplex, cotan_weights, edge_ends
+from igl_periods.complexes import DeltaComplex, cotan_weights, edge_ends, of_a_surface
 from igl_periods.errors import ComplexError
 from igl_periods.symplectic import standard_form
 from igl_periods.topology import cohomology_basis, pairing
@@ -21,6 +21,7 @@ from .laplace_matrix import outflow
 from .potentials import factored_laplacian, solutions
 
 
+@of_a_surface
 def harmonic_forms(K: DeltaComplex, cocycles: csr_array | None = None) -> Floats:
     r"""The harmonic cochains on the edges of a triangulation, in a basis of cohomology.
 
@@ -29,8 +30,8 @@ def harmonic_forms(K: DeltaComplex, cocycles: csr_array | None = None) -> Floats
 
     Parameters
     ----------
-    K : DeltaComplex
-        Closed, oriented, connected.
+    K : surface
+        As for :func:`~igl_periods.period_matrix`: closed, oriented, connected.
     cocycles : (2g, n_edges) sparse, optional
         Closed cochains on the edges of ``K``; the default is ``cohomology_basis(K)``.
 
@@ -51,6 +52,7 @@ def harmonic_forms(K: DeltaComplex, cocycles: csr_array | None = None) -> Floats
     return _harmonic(K, cotan_weights(K), checked_basis(K, cocycles))
 
 
+@of_a_surface
 def harmonic_form_blocks(
     K: DeltaComplex, cocycles: csr_array | None = None, *, rows: int = 32
 ) -> Iterator[Floats]:

@@ -28,8 +28,9 @@ from igl_periods.complexes import (
     next_corner,
     orientable_faces,
 )
-from igl_periods.wording import counted
+from igl_periods.display import counted
 
+from .seams import WELD, seam_sides, tolerance_of
 from .welding import first_equal_row
 
 
@@ -84,6 +85,8 @@ class MeshFacts:
         Edges with one triangle, and with more than two.
     nonmanifold_vertices : int
         Vertices whose triangles form more than one fan.
+    seam_edges : int
+        Boundary edges that lie in pairs, as near as repair welds.
     inconsistent_edges : int
         Edges that their two triangles run through in the same direction.
     components : tuple of MeshComponent
@@ -98,10 +101,16 @@ class MeshFacts:
     zero_area_triangles: int
     duplicate_triangles: int
     boundary_edges: int
+    seam_edges: int
     nonmanifold_edges: int
     nonmanifold_vertices: int
     inconsistent_edges: int
     components: tuple[MeshComponent, ...]
+
+    def __repr__(self) -> str:
+        size = f"{self.vertices} vertices, {self.triangles} triangles"
+        parts = counted(len(self.components), "component", "components")
+        return f"MeshFacts({size}, {parts}, {counted(len(self.defects()), 'defect', 'defects')})"
 
     @property
     def is_closed_surface(self) -> bool:
@@ -120,7 +129,14 @@ class MeshFacts:
                 "with more than one fan of triangles",
             ),
             (self.inconsistent_edges, "edge", "edges", "across which orientations disagree"),
-            (self.boundary_edges, "edge", "edges", "with one triangle (boundary)"),
+            (
+                self.boundary_edges - self.seam_edges,
+                *("edge", "edges", "with one triangle (boundary)"),
+            ),
+            (
+                self.seam_edges,
+                *("edge", "edges", "with one triangle, in pairs at the same place (seams)"),
+            ),
         ]
         words = [f"{counted(n, one, many)} {what}" for n, one, many, what in found if n]
         if len(self.components) > 1:
@@ -150,6 +166,8 @@ def mesh_facts(V: Floats, F: Ints) -> MeshFacts:
     fan_vertex[fan] = F
     used = np.unique(F)
     key = edge_keys(F)
+    free = np.flatnonzero(faces_at.ravel() == 1)
+    one, _, _ = seam_sides(V, F, free, tolerance_of(V, F, WELD))
     return MeshFacts(
         vertices=len(V),
         triangles=len(F),
@@ -158,7 +176,8 @@ def mesh_facts(V: Floats, F: Ints) -> MeshFacts:
         collapsed_triangles=int(np.count_nonzero(collapsed(F))),
         zero_area_triangles=int(np.count_nonzero(igl.doublearea(V, F) == 0.0)),
         duplicate_triangles=int(np.count_nonzero(repeats(np.sort(F, axis=1)))),
-        boundary_edges=int(np.count_nonzero(faces_at == 1)),
+        boundary_edges=free.size,
+        seam_edges=2 * one.size,
         nonmanifold_edges=np.unique(key[faces_at.ravel() > 2]).size,
         nonmanifold_vertices=int(np.count_nonzero(np.bincount(fan_vertex) > 1)),
         inconsistent_edges=int(np.count_nonzero(same)) // 2,

@@ -1,7 +1,7 @@
 """From a mesh file to vertices and triangles, with a report of what was found and changed.
 
-A file is read as it is: polygons become the fans of their triangles, and STL corners at the same
-position one vertex, both counted; nothing else changes unless repair is asked for.  What is no
+A file is read as it is: polygons are divided into triangles, and STL corners at the same position
+become one vertex, both counted; nothing else changes unless repair is asked for.  What is no
 closed, oriented surface is loaded all the same, since it may have a use (the double of a surface
 with boundary is closed); the report says what keeps it from being one, and
 :func:`~igl_periods.complexes.check_surface` refuses it where a period matrix is wanted.
@@ -9,6 +9,7 @@ with boundary is closed); the report says what keeps it from being one, and
 
 from __future__ import annotations
 
+import warnings
 from os import PathLike
 
 import numpy as np
@@ -16,29 +17,40 @@ from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Floats, Ints
 from igl_periods.complexes import checked_corners, checked_positions, face_components
+from igl_periods.errors import MeshError
 
 from .facts import glued_in_pairs, mesh_facts
 from .formats.read import read_mesh_file
+from .polygons import triangulated
 from .repair import repair_mesh
 from .report import MeshReport as MeshReport
 from .report import RepairStep
+from .seams import WELD
 from .welding import compressed
 
 
 def load_mesh(
-    path: str | PathLike[str], repair: bool = False, *, largest_hole: int = 0
+    path: str | PathLike[str],
+    repair: bool = False,
+    *,
+    weld: float = WELD,
+    largest_hole: int = 0,
 ) -> tuple[Floats, Ints, MeshReport]:
     """Read a triangle mesh from a file.
 
-    OBJ, OFF, PLY and STL are read in double precision and in the order of the file; glTF, GLB and
-    FBX by Open3D.
+    OBJ, OFF, PLY, STL, 3MF, glTF and GLB are read in double precision and in the order of the file,
+    each of them compressed by gzip too (``mesh.obj.gz``).  Polygons are divided into triangles
+    (:func:`~igl_periods.meshes.polygons.triangulated`).
 
     Parameters
     ----------
     path : path-like
     repair : bool
         Weld, drop, orient and split what keeps the mesh from being a surface
-        (:func:`~igl_periods.meshes.repair.repair_mesh`), and count it.  Nothing moves.
+        (:func:`~igl_periods.meshes.repair.repair_mesh`), and count it.
+    weld : float
+        With ``repair``, how far apart the ends of boundary edges may be that are welded, in parts
+        of the diagonal of the mesh; 0 for those at exactly the same place.
     largest_hole : int
         With ``repair``, close boundary loops of up to that many edges.
 
@@ -56,20 +68,37 @@ def load_mesh(
     FileNotFoundError
         If there is no such file.
     MeshError
-        If the format is unknown, or the file is empty, truncated or corrupt.
+        If the format is unknown, or the file is empty, truncated or corrupt; if the outline of a
+        polygon crosses itself.
+
+    Warns
+    -----
+    UserWarning
+        Of what is odd about the file, though it could be read.
     """
     mesh = read_mesh_file(path)
-    loaded = mesh_facts(mesh.V, mesh.F)
-    V, F, result = mesh.V, mesh.F, loaded
+    try:
+        triangles = triangulated(mesh.V, mesh.corners, mesh.degrees)
+    except MeshError as error:
+        raise MeshError(f"{path}: {error}") from error
+    for warning in mesh.warnings:
+        warnings.warn(f"{path}: {warning}", stacklevel=2)
+    V, F = mesh.V, triangles.F
+    loaded = result = mesh_facts(V, F)
     steps: tuple[RepairStep, ...] = ()
     if repair:
-        V, F, steps = repair_mesh(V, F, largest_hole=largest_hole)
+        V, F, steps = repair_mesh(V, F, weld=weld, largest_hole=largest_hole)
         result = mesh_facts(V, F)
     report = MeshReport(
         file=str(path),
-        faces=mesh.n_faces,
-        polygons_fanned=mesh.n_polygons,
+        faces=mesh.degrees.size,
+        polygons_fanned=triangles.fanned,
+        polygons_clipped=triangles.clipped,
+        polygons_not_planar=triangles.not_planar,
+        unevenness=triangles.unevenness,
+        repeated_corners=triangles.repeated_corners,
         stl_corners_welded=mesh.n_welded,
+        warnings=mesh.warnings,
         loaded=loaded,
         repair=steps,
         result=result,

@@ -3,17 +3,20 @@
 The steps, in this order, each a function from a mesh to a mesh:
 
 * drop triangles that repeat another one;
-* stitch boundary edges that lie in pairs at exactly the same place, by welding their ends.  This
-  closes the seams of files that repeat vertices, and touches no surface that is closed already:
-  sheets of an immersed surface may meet in a vertex and stay apart;
+* stitch boundary edges that lie in pairs at the same place, by welding their ends (``seams``):
+  first at exactly the same place, then within a tolerance.  This closes the seams of files that
+  repeat vertices, and touches no surface that is closed already: sheets of an immersed surface may
+  meet in a vertex and stay apart;
 * drop triangles that use a vertex twice, and those that repeat another one now;
 * turn triangles over until they agree, in every component that is orientable;
 * split non-manifold edges, pairing the triangles that run through the edge in opposite directions
   (Guéziec et al.), and give each fan of triangles at a vertex a vertex of its own;
+* contract edges without length (``contraction``);
 * optionally close boundary loops, by a cone over the loop from its centre;
 * drop vertices without triangles.
 
-No vertex moves.  Slivers and triangles of area 0 stay: dropping them would open holes.
+No vertex moves, but to another one within the tolerance.  Slivers stay, and triangles of area 0
+whose sides have lengths: dropping them would open holes.
 
 References
 ----------
@@ -22,6 +25,8 @@ surfaces" (2001).
 """
 
 from __future__ import annotations
+
+from numbers import Real
 
 import igl
 import numpy as np
@@ -39,13 +44,17 @@ from igl_periods.complexes import (
 )
 from igl_periods.errors import MeshError
 
+from .contraction import contracted
 from .facts import collapsed, glued_in_pairs, repeats
 from .report import RepairStep
+from .seams import WELD, stitched, tolerance_of
 from .welding import compressed, first_equal_row
+
+_LARGEST_WELD = 0.01
 
 
 def repair_mesh(
-    V: ArrayLike, F: ArrayLike, *, largest_hole: int = 0
+    V: ArrayLike, F: ArrayLike, *, weld: float = WELD, largest_hole: int = 0
 ) -> tuple[Floats, Ints, tuple[RepairStep, ...]]:
     """Weld, drop, orient, split and fill what keeps a mesh from being a surface.
 
@@ -53,6 +62,10 @@ def repair_mesh(
     ----------
     V : (n, d) array-like
     F : (m, 3) array-like of int
+    weld : float
+        How far apart the ends of boundary edges may be that are welded, in parts of the diagonal of
+        the mesh; less than 0.01, and 0 for those at exactly the same place.  Positions in single
+        precision are welded within four units in the last place of the largest, in any case.
     largest_hole : int
         Boundary loops of up to that many edges are closed; none by default.
 
@@ -67,16 +80,20 @@ def repair_mesh(
     ------
     MeshError
         If the arrays have a wrong shape or type, an index is out of range, coordinates are not
-        finite, or no triangle is left.
+        finite, the tolerance is none, or no triangle is left.
     """
+    _check_tolerance(weld)
     V = checked_positions(V)
     F = checked_corners(F, len(V))
     check_finite(V, F)
     steps = []
     F, repeated = _drop(F, _repeated(V, F))
-    F, welded = _stitch(V, F)
-    F, dropped = _drop(F, collapsed(F))
+    F, welded, _ = stitched(V, F, _free_sides(F), 0.0)
     steps.append(RepairStep("vertices welded by stitching boundary edges", welded))
+    F, dropped = _drop(F, collapsed(F))
+    if weld > 0.0 and len(F):
+        F, welded, distance = stitched(V, F, _free_sides(F), tolerance_of(V, F, weld))
+        steps.append(RepairStep("vertices welded within the tolerance", welded, distance))
     steps.append(RepairStep("triangles dropped that used a vertex twice", dropped))
     F, dropped = _drop(F, _repeated(V, F))
     steps.append(RepairStep("duplicate triangles dropped", repeated + dropped))
@@ -88,6 +105,8 @@ def repair_mesh(
     steps.append(RepairStep("vertices added by splitting non-manifold edges", added))
     V, F, added = _split_vertices(V, F)
     steps.append(RepairStep("vertices added by splitting non-manifold vertices", added))
+    F, contractions = contracted(V, F)
+    steps.append(RepairStep("edges without length contracted", contractions))
     V, F, filled = _fill_holes(V, F, largest_hole)
     steps.append(RepairStep(f"holes of up to {largest_hole} edges filled", filled))
     used, faces = compressed(V, F)
@@ -95,29 +114,17 @@ def repair_mesh(
     return used, faces, tuple(steps)
 
 
-def _stitch(V: Floats, F: Ints) -> tuple[Ints, int]:
-    """Weld the ends of boundary edges of which exactly two lie at the same place."""
+def _check_tolerance(weld: float) -> None:
+    if not (isinstance(weld, Real) and 0.0 <= weld < _LARGEST_WELD):
+        raise MeshError(
+            f"weld = {weld!r}: vertices are welded within a part of the diagonal of the mesh, from "
+            f"0 to less than {_LARGEST_WELD:g}."
+        )
+
+
+def _free_sides(F: Ints) -> Ints:
     twin, _, _ = glued_in_pairs(F)
-    free = np.flatnonzero(twin.ravel() < 0)
-    start, end = F.ravel()[next_corner(free)], F.ravel()[next_corner(free, 2)]
-    place = first_equal_row(V)
-    ends = np.sort(np.column_stack([place[start], place[end]]), axis=1)
-    _, edge, count = np.unique(first_equal_row(ends), return_inverse=True, return_counts=True)
-    paired = np.flatnonzero((count == 2)[edge] & (ends[:, 0] != ends[:, 1]))
-    one, other = paired[np.argsort(edge[paired], kind="stable")].reshape(-1, 2).T
-    same_way = place[start[one]] == place[start[other]]
-    _, welded = components_of(
-        np.concatenate([start[one], end[one]]),
-        np.concatenate(
-            [
-                np.where(same_way, start[other], end[other]),
-                np.where(same_way, end[other], start[other]),
-            ]
-        ),
-        len(V),
-    )
-    _, first, inverse = np.unique(welded, return_index=True, return_inverse=True)
-    return first[inverse][F], len(V) - first.size
+    return np.flatnonzero(twin.ravel() < 0)
 
 
 def _drop(F: Ints, wrong: NDArray[np.bool_]) -> tuple[Ints, int]:

@@ -6,17 +6,32 @@ from collections import Counter
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from igl_periods.wording import counted
+from igl_periods.display import counted, lines_html
 
 from .facts import MeshFacts
 
 
 @dataclass(frozen=True)
 class RepairStep:
-    """One step of a repair: its name, and how many things it changed (0: nothing to do)."""
+    """One step of a repair.
+
+    Attributes
+    ----------
+    name : str
+    changed : int
+        How many things it changed (0: nothing to do).
+    distance : float
+        How far apart vertices were that became one.
+    """
 
     name: str
     changed: int
+    distance: float = 0.0
+
+    def __str__(self) -> str:
+        """In words."""
+        far = f", up to {self.distance:.2g} apart" if self.distance else ""
+        return f"{self.name}: {self.changed}{far}"
 
 
 @dataclass(frozen=True)
@@ -30,8 +45,18 @@ class MeshReport:
         Faces in the file, polygons counted once.
     polygons_fanned : int
         Faces with more than three corners, replaced by the triangles of their fans.
+    polygons_clipped : int
+        Those divided otherwise: concave ones, and those with straight corners.
+    polygons_not_planar : int
+        Those whose corners leave the plane that fits them by more than 1e-6 of their size.
+    unevenness : float
+        The most by which corners of a polygon leave its plane, in parts of its size.
+    repeated_corners : int
+        Corners of polygons left out because they repeat the one before.
     stl_corners_welded : int
         Vertices saved by giving STL corners at the same position one vertex.
+    warnings : tuple of str
+        What is odd about the file.
     loaded : MeshFacts
         The mesh as it was read.
     repair : tuple of RepairStep
@@ -43,7 +68,12 @@ class MeshReport:
     file: str
     faces: int
     polygons_fanned: int
+    polygons_clipped: int
+    polygons_not_planar: int
+    unevenness: float
+    repeated_corners: int
     stl_corners_welded: int
+    warnings: tuple[str, ...]
     loaded: MeshFacts
     repair: tuple[RepairStep, ...]
     result: MeshFacts
@@ -58,12 +88,20 @@ class MeshReport:
         document["repair"] = [asdict(step) for step in self.repair]
         return document
 
+    def __repr__(self) -> str:
+        defects = counted(len(self.result.defects()), "defect", "defects")
+        steps = sum(step.changed > 0 for step in self.repair)
+        repaired = f", {counted(steps, 'step', 'steps')} of repair" if self.repair else ""
+        return f"MeshReport({self.file!r}: {_size(self.result)}, {defects}{repaired})"
+
+    def _repr_html_(self) -> str:
+        return lines_html("MeshReport", str(self).splitlines())
+
     def __str__(self) -> str:
         """Lines to be read by a person."""
         lines = [f"{self.file}: {_size(self.loaded)}"]
-        if self.polygons_fanned:
-            fanned = counted(self.polygons_fanned, "polygon", "polygons")
-            lines.append(f"  {self.faces} faces in the file; {fanned} divided into triangles")
+        lines += [f"  {line}" for line in self._polygons()]
+        lines += [f"  warning: {warning}" for warning in self.warnings]
         if self.stl_corners_welded:
             lines.append(f"  {self.stl_corners_welded} STL corners welded to an equal one")
         if self.loaded.unreferenced_vertices:
@@ -72,13 +110,33 @@ class MeshReport:
         lines += [f"  {line}" for line in _parts(self.loaded)]
         lines += [f"  defect: {defect}" for defect in self.loaded.defects()]
         if any(step.changed for step in self.repair):
-            lines += [f"  repair: {s.name}: {s.changed}" for s in self.repair if s.changed]
+            lines += [f"  repair: {step}" for step in self.repair if step.changed]
             lines.append(f"after repair: {_size(self.result)}")
             lines += [f"  {line}" for line in _parts(self.result)]
             lines += [f"  remaining defect: {defect}" for defect in self.result.defects()]
         elif self.repair:
             lines.append("  repair: nothing to do")
         return "\n".join(lines)
+
+    def _polygons(self) -> list[str]:
+        """What was made of polygons."""
+        n = self.polygons_fanned + self.polygons_clipped
+        lines = []
+        if n:
+            divided = counted(n, "polygon", "polygons")
+            lines.append(f"{self.faces} faces in the file; {divided} divided into triangles")
+        if self.polygons_clipped:
+            lines[0] += f", {self.polygons_clipped} of them concave or with straight corners"
+        if self.polygons_not_planar:
+            uneven = counted(self.polygons_not_planar, "polygon is", "polygons are")
+            lines.append(
+                f"{uneven} not planar, by up to {self.unevenness:.2g} of their size: "
+                "other triangles would make another surface"
+            )
+        if self.repeated_corners:
+            repeated = counted(self.repeated_corners, "corner", "corners")
+            lines.append(f"{repeated} of polygons left out, equal to the one before")
+        return lines
 
 
 def _size(facts: MeshFacts) -> str:

@@ -6,34 +6,44 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from igl_periods.complexes import DeltaComplex, double
+from igl_periods.complexes import DeltaComplex, double, mesh_reader
 from igl_periods.errors import ComplexError
 
-from .formats.read import EXTENSIONS
+from .formats.read import EXTENSIONS, extension_of
 from .gluing_file import read_gluing
 from .load import load_mesh
 from .report import MeshReport
+from .seams import WELD
 
 _GLUING = ".json"
 # Extensions of the files that hold surfaces.
 SURFACE_EXTENSIONS = (*EXTENSIONS, _GLUING)
 
 
+def is_surface_file(name: str) -> bool:
+    """Whether a file of this name holds a surface, compressed or not."""
+    return Path(name).suffix.lower() == _GLUING or extension_of(name) in EXTENSIONS
+
+
 def read_surface(
-    path: str | PathLike[str], repair: bool = False
+    path: str | PathLike[str],
+    repair: bool = False,
+    *,
+    weld: float = WELD,
+    largest_hole: int = 0,
 ) -> tuple[tuple[Any, ...], MeshReport | None]:
     """Read a mesh, or a gluing of triangles (.json).
 
     Parameters
     ----------
     path : path-like
-    repair : bool
+    repair, weld, largest_hole
         As in :func:`load_mesh`; a gluing is never repaired.
 
     Returns
     -------
     surface : tuple
-        ``(V, F)`` or ``(K,)``: the arguments of :func:`~igl_periods.periods.arguments.as_complex`.
+        ``(V, F)`` or ``(K,)``: the arguments of :func:`~igl_periods.complexes.as_complex`.
     report : MeshReport or None
         None for a gluing.
 
@@ -44,8 +54,17 @@ def read_surface(
     """
     if Path(path).suffix.lower() == _GLUING:
         return (read_gluing(path),), None
-    V, F, report = load_mesh(path, repair=repair)
+    V, F, report = load_mesh(path, repair=repair, weld=weld, largest_hole=largest_hole)
     return (V, F), report
+
+
+@mesh_reader
+def surface_at_path(path: Any) -> tuple[Any, Any] | DeltaComplex | None:
+    """V and F, or the complex, of the file at a path; None of what is no path."""
+    if not isinstance(path, (str, PathLike)):
+        return None
+    surface, _ = read_surface(path)
+    return surface[0] if len(surface) == 1 else (surface[0], surface[1])
 
 
 def surface_of(

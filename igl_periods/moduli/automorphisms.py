@@ -27,6 +27,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Ints
+from igl_periods.display import facts_html
 from igl_periods.errors import EnumerationLimitError
 
 from .equivalence import Isomorphisms, symplectic_isomorphisms
@@ -54,6 +55,21 @@ class SymplecticGroup(Sequence[Ints]):
     elements: Isomorphisms
     reversing: Isomorphisms
     hyperelliptic: bool | None
+
+    def __repr__(self) -> str:
+        return f"SymplecticGroup({', '.join(f'{name} {value}' for name, value in self._facts())})"
+
+    def _repr_html_(self) -> str:
+        return facts_html("SymplecticGroup", self._facts())
+
+    def _facts(self) -> list[tuple[str, str]]:
+        answer = {True: "yes", False: "no", None: "not decided"}[self.hyperelliptic]
+        return [
+            ("order", str(self.order)),
+            ("reversing", str(len(self.reversing))),
+            ("hyperelliptic", answer),
+            ("of the surface", " or ".join(map(str, self.surface_orders))),
+        ]
 
     def __len__(self) -> int:
         return len(self.elements)

@@ -35,6 +35,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Complexes, Floats, Ints
+from igl_periods.display import facts_html, integer_lines, lines_html
 from igl_periods.errors import EnumerationLimitError
 from igl_periods.siegel import check_same_genus, log_eigenvalues, siegel_reduce, siegel_transform
 from igl_periods.symplectic import energy_matrix, form_action, product, unimodular_inverse
@@ -71,6 +72,18 @@ class Isomorphisms(list[Ints]):
         self.certified = certified
         self.complete = True
         self.gave_up = ""
+
+    def __repr__(self) -> str:
+        return f"Isomorphisms({self.verdict})"
+
+    def _repr_html_(self) -> str:
+        facts = [
+            ("verdict", self.verdict),
+            ("tolerance", f"{self.tolerance:.3g}{', certified' * self.certified}"),
+            ("search", "complete" if self.complete else "stopped"),
+        ]
+        first = [lines_html("the first γ", integer_lines(self[0]))] if 0 < len(self) else []
+        return facts_html("Isomorphisms", facts, *first)
 
     @property
     def verdict(self) -> str:

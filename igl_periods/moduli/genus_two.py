@@ -130,7 +130,7 @@ def absolute_igusa_invariants(Pi: ArrayLike) -> Complexes | None:
     --------
     >>> Pi = 1j / np.sqrt(3) * np.array([[2, -1], [-1, 2]])  # y² = x⁶ − 1
     >>> absolute_igusa_invariants(Pi).real.round(3).tolist()
-    [51200000.0, 9600000.0, 1760000.0]
+    [17066666.667, 480000.0, 148000.0]
     """
     try:
         i2, i4, i6, i10 = igusa_clebsch_invariants(rosenhain_roots(Pi))

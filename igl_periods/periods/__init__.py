@@ -14,19 +14,22 @@ d the largest symplectic eigenvalue of D: the *bound*.  It is about the polyhedr
 triangles have the stored lengths.
 
 ====================  =========================================================================
-``arguments``         surfaces and options as callers hand them over
+``arguments``         options and weights as callers hand them over
 ``memory_estimates``  what a computation will take, before it is begun
 ``rounding``          what rounding can change between D and Π
 ``solved_forms``      the forms, kept for derivatives
 ``derivative``        ∂Π by lengths and vertices, forward and backward
+``differentiable``    … as methods
 ``matrix``            the period matrix, its estimates and its bound
 ``certificate``       D and its allowance → the certified matrix
+``proof``             the same with energies in balls: the bound is proved
 ``adaptive_degree``   the degree that meets a tolerance
 ``computation``       the steps, one after the other
 ``adaptive_mesh``     finer triangulations where the bound originates
 ``quality``           what limits the accuracy of a mesh
 ``extrapolation``     smooth surfaces from several meshes, uncertified
 ``real_surfaces``     the real structure of a double
+``recognition``       how a surface is recognised by its matrix
 ====================  =========================================================================
 
 References
@@ -34,7 +37,7 @@ References
 Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 3.
 """
 
-from .arguments import as_complex, check_options
+from .arguments import check_options
 from .solved_forms import SolvedForms, solve_forms
 from .derivative import EntryCovariance, Gradient
 from .matrix import PeriodMatrix, reduced_if_feasible, siegel_reduced
@@ -45,9 +48,13 @@ from .adaptive_mesh import Refined, refined_period_matrix
 from .quality import MeshQuality, WIDE, mesh_quality
 from .extrapolation import Extrapolation, richardson, sampled_torus
 from .real_surfaces import real_structure
+from .recognition import matrix_of_complex
+from .rounding import LEAST_ALLOWANCE, combined, congruence
 
 __all__ = [
-    "as_complex",
+    "LEAST_ALLOWANCE",
+    "combined",
+    "congruence",
     "check_options",
     "SolvedForms",
     "solve_forms",
@@ -60,6 +67,7 @@ __all__ = [
     "ToleranceWarning",
     "period_matrix",
     "period_matrix_from_weights",
+    "Refined",
     "refined_period_matrix",
     "mesh_quality",
     "MeshQuality",
@@ -67,6 +75,6 @@ __all__ = [
     "Extrapolation",
     "richardson",
     "real_structure",
+    "matrix_of_complex",
     "sampled_torus",
-    "Refined",
 ]

@@ -33,8 +33,10 @@ from igl_periods.complexes import (
     cotan_weights,
     insert_barycentres,
     intrinsic_delaunay,
+    of_a_surface,
     split,
 )
+from igl_periods.display import facts_html, rounded_up
 from igl_periods.harmonic import (
     dirichlet_matrix,
     energy_excess,
@@ -73,7 +75,19 @@ class Refined:
     cochains: csr_array
     steps: tuple[tuple[int, float], ...]
 
+    def __repr__(self) -> str:
+        (first, before), (last, after) = self.steps[0], self.steps[-1]
+        return (
+            f"Refined({first} to {last} faces, bound {rounded_up(before, 3)} to "
+            f"{rounded_up(after, 3)})"
+        )
 
+    def _repr_html_(self) -> str:
+        rows = [(f"{n} faces", f"bound {rounded_up(bound, 3)}") for n, bound in self.steps]
+        return facts_html("Refined", rows)
+
+
+@of_a_surface
 def refined_period_matrix(
     K: DeltaComplex, bound: float, *, largest: int = 200_000, local: bool = True
 ) -> Refined:
@@ -81,8 +95,8 @@ def refined_period_matrix(
 
     Parameters
     ----------
-    K : DeltaComplex
-        Closed, oriented, connected.
+    K : surface
+        As for :func:`~igl_periods.period_matrix`: closed, oriented, connected.
     bound : float
         The wanted bound, > 0.
     largest : int

@@ -1,44 +1,22 @@
-"""Surfaces and options as callers hand them over, checked."""
+"""Options and weights as callers hand them over, checked."""
 
 from __future__ import annotations
 
 from numbers import Real
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Floats
 from igl_periods.complexes import DeltaComplex, check_equal_when_glued, checked_array
-from igl_periods.errors import ComplexError, MeshError
-from igl_periods.run_log import stage
-
-from .memory_estimates import check_faces
+from igl_periods.errors import ComplexError
 
 _LARGEST_WEIGHT = 1e100
 
 
-def as_complex(surface: Any, F: ArrayLike | None = None) -> DeltaComplex:
-    """The Δ-complex of ``(V, F)`` or of a mesh object, or ``surface`` itself if it is one.
-
-    Mesh objects are Open3D's ``TriangleMesh`` and whatever else has ``vertices`` and ``triangles``
-    or ``faces``.
-    """
-    if isinstance(surface, DeltaComplex):
-        if F is not None:
-            raise MeshError("a DeltaComplex has its own faces: leave F away.")
-        return surface
-    if F is None and hasattr(surface, "vertices"):
-        faces = "triangles" if hasattr(surface, "triangles") else "faces"
-        surface, F = np.asarray(surface.vertices), getattr(surface, faces, None)
-    if F is None:
-        raise MeshError("faces are missing: call period_matrix(V, F), or period_matrix(K).")
-    check_faces(len(np.asarray(F)))
-    with stage("surface"):
-        return DeltaComplex.from_mesh(surface, np.asarray(F))
-
-
-def check_options(weights: str, degree: int, tolerance: float | None) -> None:
+def check_options(
+    weights: str, degree: int, tolerance: float | None, rigorous: bool = False
+) -> None:
     """Refuse options of :func:`period_matrix` that have no such value or contradict each other."""
     if weights not in ("intrinsic", "extrinsic"):
         raise ValueError(f'weights must be "intrinsic" or "extrinsic", not {weights!r}.')
@@ -48,8 +26,19 @@ def check_options(weights: str, degree: int, tolerance: float | None) -> None:
         raise ValueError(f"tolerance = {tolerance}: a bound is always positive.")
     if weights == "extrinsic" and (degree != 1 or tolerance is not None):
         raise ValueError("extrinsic weights have degree 1 and no bound: leave both options away.")
+    if weights == "extrinsic" and rigorous:
+        raise ValueError("extrinsic weights have no bound that could be proved: rigorous=True.")
     if degree != 1 and tolerance is not None:
         raise ValueError("a tolerance chooses the degree: leave one of the two away.")
+
+
+def check_kept_forms(weights: str, tolerance: float | None, rigorous: bool) -> None:
+    """Refuse options with which no forms are kept."""
+    if weights == "extrinsic" or tolerance is not None or rigorous:
+        raise ValueError(
+            "keep_forms=True goes with intrinsic weights, a degree that is given, and no proof: "
+            "compute once with the tolerance, or the proof, and again for the derivatives."
+        )
 
 
 def edge_weights(K: DeltaComplex, rho: ArrayLike) -> Floats:

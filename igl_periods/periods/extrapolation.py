@@ -40,6 +40,7 @@ from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Complexes, Floats, Ints
 from igl_periods.complexes import DeltaComplex, periodic_grid
+from igl_periods.display import facts_html, matrix_html, matrix_lines
 from igl_periods.moduli import symplectic_isomorphisms
 from igl_periods.run_log import logger
 from igl_periods.siegel import siegel_distance, siegel_transform
@@ -80,6 +81,26 @@ class Extrapolation:
     error_estimate: float
     sizes: tuple[int, ...]
     period_matrices: tuple[PeriodMatrix, ...]
+
+    def __repr__(self) -> str:
+        lines = [f"  {line}" for line in matrix_lines(self.matrix, self._estimates())]
+        facts = ", ".join(f"{name} {value}" for name, value in self._facts())
+        return "\n".join([f"Extrapolation: {facts}", *lines])
+
+    def _repr_html_(self) -> str:
+        matrix = matrix_html(self.matrix, self._estimates())
+        return facts_html("Extrapolation (an estimate, no certificate)", self._facts(), matrix)
+
+    def _facts(self) -> list[tuple[str, str]]:
+        order = "unknown" if self.order is None else f"{self.order:.3g}"
+        sizes = " ".join(map(str, self.sizes))
+        return [("order", order), ("error about", f"{self.error_estimate:.2g}"), ("sizes", sizes)]
+
+    def _estimates(self) -> Floats | None:
+        """Errors of the entries, by the estimate; None where that says nothing."""
+        scale = np.sqrt(np.diag(self.matrix).imag)
+        known = np.isfinite(self.error_estimate)
+        return self.error_estimate * np.outer(scale, scale) if known else None
 
 
 def richardson(family: Family, sizes: Sequence[int], **options: Any) -> Extrapolation:

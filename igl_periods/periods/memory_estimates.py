@@ -23,11 +23,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from igl_periods.complexes import DeltaComplex
+from igl_periods.complexes import BYTES_A_FACE_FLIPPING, DeltaComplex
 from igl_periods.elements import count_unknowns
 from igl_periods.memory import require_memory
 
-_BYTES_A_FACE_FLIPPING = 400.0
 _BYTES_A_FACE = 240.0
 _BYTES_AN_ENTRY = 12.0
 _DENSE_MATRICES = 12.0
@@ -53,16 +52,11 @@ def room_for_forms(K: DeltaComplex, limit: float | None = None) -> float:
     n, m, rank = K.n_vertices, K.n_faces, 2 - K.euler_characteristic
     handles = 4.0 * np.sqrt(max(rank, 0) / 2)
     factor = _BYTES_AN_ENTRY * n * (6.0 * np.log2(n + 1) + handles)
-    needed = max(_BYTES_A_FACE_FLIPPING * m, _BYTES_A_FACE * m + factor)
+    needed = max(BYTES_A_FACE_FLIPPING * m, _BYTES_A_FACE * m + factor)
     needed += 8.0 * (_DENSE_MATRICES * rank**2 + _GRADIENTS_A_FORM * max(rank, 0))
     what = f"harmonic forms on {n:,} vertices with {rank:,} cohomology classes take"
     allowed = require_memory(needed + 8.0 * n * np.clip(rank, 0, _FEWEST_COLUMNS), what, limit)
     return allowed - needed
-
-
-def check_faces(n_faces: int) -> None:
-    """Raise MemoryLimitError unless there is memory for a complex of so many faces."""
-    require_memory(_BYTES_A_FACE_FLIPPING * n_faces, f"a complex of {n_faces:,} faces takes", None)
 
 
 def check_high_order(K: DeltaComplex, degree: int, n_forms: int, limit: float | None) -> None:

@@ -25,8 +25,10 @@ from igl_periods.complexes import (
     cone_angles,
     cotan_weights,
     delaunay_flips,
+    of_a_surface,
     transport,
 )
+from igl_periods.display import facts_html, rounded_up
 from igl_periods.harmonic import (
     dirichlet_matrix,
     energy_excess,
@@ -80,6 +82,26 @@ class MeshQuality:
     vertex_excess: Floats
     near_cone: NDArray[np.bool_]
 
+    def __repr__(self) -> str:
+        bound, angles = rounded_up(self.bound, 3), _degrees(self.angles)
+        return f"MeshQuality(bound {bound}, angles {angles}, {self.flips} flips)"
+
+    def _repr_html_(self) -> str:
+        return facts_html("MeshQuality", self._facts())
+
+    def _facts(self) -> list[tuple[str, str]]:
+        wide = int(np.count_nonzero(self.cone_angles > WIDE))
+        return [
+            ("bound", rounded_up(self.bound, 3)),
+            ("angles", _degrees(self.angles)),
+            ("total angles", f"{_degrees(self.cone_angles)}, {wide} above 450°"),
+            ("edges that are not Delaunay", str(self.non_delaunay_edges)),
+            ("flips", str(self.flips)),
+            ("angles after flips", _degrees(self.delaunay_angles)),
+            ("half of the bound", f"in {self.half_of_the_bound} of {self.excess.size} triangles"),
+            ("mollification", f"{self.mollification:.3g}"),
+        ]
+
     @property
     def bound(self) -> float:
         """d_1 − 1, the bound of the period matrix but for rounding; 0 for genus 0."""
@@ -102,13 +124,19 @@ class MeshQuality:
         return len(most_of(self.excess, 0.5))
 
 
+def _degrees(angles: Floats) -> str:
+    """The range of some angles."""
+    return f"{np.degrees(angles.min()):.3g}° to {np.degrees(angles.max()):.3g}°"
+
+
+@of_a_surface
 def mesh_quality(K: DeltaComplex) -> MeshQuality:
     """Measure what decides about the accuracy of the period matrix.
 
     Parameters
     ----------
-    K : DeltaComplex
-        Closed, oriented, connected.
+    K : surface
+        As for :func:`~igl_periods.period_matrix`: closed, oriented, connected.
 
     Raises
     ------

@@ -1,8 +1,8 @@
 r"""Pictures of derivatives: where Π is sensitive to the shape, and the quadratic differentials.
 
 If the metric is strained, Π_kl moves by :math:`\int \bar\mu\, \zeta_k \zeta_l` (Rauch), μ the
-traceless part of the strain.  So the products ζ_kζ_l, holomorphic quadratic differentials with 4g − 4
-zeros, show which strain changes what: a stretch along the lines on which ζ_kζ_l > 0, the
+traceless part of the strain.  So the products ζ_kζ_l, holomorphic quadratic differentials with
+4g − 4 zeros, show which strain changes what: a stretch along the lines on which ζ_kζ_l > 0, the
 *horizontal* ones, or across them.
 """
 

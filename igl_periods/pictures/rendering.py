@@ -1,47 +1,42 @@
-"""Pictures of scenes, with Open3D: in a file, on a machine without a display, or in a window.
+"""Pictures of scenes: in a file, on a machine without a display, or in a window.
 
-Open3D is imported when the first picture is made, and never before.
+They are drawn by Open3D in a process of their own (:mod:`igl_periods.pictures.drawing`).  What
+Open3D and its drivers do when something is missing, to abort or to wait for ever, ends in a
+message then.
 """
 
 from __future__ import annotations
 
-import ctypes
 import os
-import re
-from collections.abc import Iterator
-from contextlib import contextmanager
+import pickle
+import signal
+import subprocess
+import sys
+import tempfile
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
-import igl
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Bytes, Floats
 from igl_periods.errors import RenderError
+from igl_periods.extras import require
 from igl_periods.run_log import stage
 
-from .scenes import TUBE, Scene, checkerboard
-from .tubes import diagonal, tube
+from .scenes import Scene
 
-# Debian's packages of the libraries that Open3D loads.
-_PACKAGES = {
-    "libGL": "libgl1",
-    "libEGL": "libegl1",
-    "libX11": "libx11-6",
-    "libgomp": "libgomp1",
-    "libusb-1.0": "libusb-1.0-0",
-}
-_SURFACELESS = 0x31DD  # EGL_PLATFORM_SURFACELESS_MESA
-_SUN, _SKY = 45_000.0, 20_000.0
-_FIELD_OF_VIEW = 30.0
-_GAMMA = 2.2
-# Pictures are drawn this many times larger and averaged, so that edges are smooth.
-_OVERSAMPLING = 2
 _LARGEST = 4096
-_NEARLY_WHITE = 252.0
-_BACKGROUND = (1.0, 1.0, 1.0, 1.0)
+# How long a picture may take, in seconds: twenty times what drivers in software were seen to take,
+# at the start, for a pixel, and for a triangle.
+_START, _PIXEL, _TRIANGLE = 60.0, 1e-4, 1e-4
+# What Open3D does when it is taken down again is of no interest.
+_PROGRAM = """
+import os, sys
+from igl_periods.pictures.drawing import main
+main(sys.argv[1])
+os._exit(0)
+"""
 
 
 def render(
@@ -64,8 +59,10 @@ def render(
 
     Raises
     ------
+    MissingExtraError
+        If Open3D is not installed.
     RenderError
-        If Open3D or a system library it needs is missing, or there is no way to draw.
+        If a system library or a driver it needs is missing, or it does not come to an end.
     ValueError
         If the size is not between 1 and 4096, or the direction is 0.
     """
@@ -75,21 +72,10 @@ def render(
             f"a picture of {width} x {height} pixels: both must be between 1 and {_LARGEST}."
         )
     eye, up = _camera(scene.V, direction)
-    o3d = _open3d()
-    _check_egl()
-    with stage("drawing"):
-        fine = _OVERSAMPLING
-        with _silence():
-            renderer = o3d.visualization.rendering.OffscreenRenderer(fine * width, fine * height)
-        _fill(o3d, renderer, scene, eye, up)
-        centre = 0.5 * (scene.V.max(axis=0) + scene.V.min(axis=0))
-        distance = _distance(scene.V - centre, eye, up, width / height)
-        renderer.setup_camera(_FIELD_OF_VIEW, centre, centre + distance * eye, up)
-        picture = np.asarray(renderer.render_to_image()).astype(np.float64)
-    picture = picture.reshape(height, fine, width, fine, 3).mean(axis=(1, 3))
-    # The engine dithers: the background is white but for that.
-    picture[(picture > _NEARLY_WHITE).all(axis=2)] = 255.0
-    return np.rint(picture).astype(np.uint8)
+    seconds = _START + _PIXEL * width * height + _TRIANGLE * len(scene.F)
+    with stage("drawing"), tempfile.TemporaryDirectory(prefix="igl-periods-") as folder:
+        _run_open3d(Path(folder), ("draw", scene, size, eye, up), seconds)
+        return np.asarray(np.load(Path(folder, "picture.npy")))
 
 
 def show(scene: Scene, title: str = "igl-periods") -> None:
@@ -97,16 +83,14 @@ def show(scene: Scene, title: str = "igl-periods") -> None:
 
     Raises
     ------
+    MissingExtraError
+        If Open3D is not installed.
     RenderError
-        If Open3D or a system library it needs is missing, or there is no display.
+        If a system library or a driver it needs is missing, or there is no display.
     """
     check_display()
-    o3d = _open3d(surfaceless=False)
-    parts = [
-        {"name": name, "geometry": geometry, "material": material}
-        for name, geometry, material in _geometries(o3d, scene)
-    ]
-    o3d.visualization.draw(parts, title=title, show_skybox=False, bg_color=_BACKGROUND)
+    with tempfile.TemporaryDirectory(prefix="igl-periods-") as folder:
+        _run_open3d(Path(folder), ("show", scene, title), None)
 
 
 def check_display() -> None:
@@ -120,6 +104,7 @@ def check_display() -> None:
 
 def with_legend(picture: Bytes, scene: Scene) -> Bytes:
     """The picture with the names of the colours of a scene at its lower edge."""
+    require("a legend", "PIL")
     from PIL import Image, ImageDraw, ImageFont
 
     image = Image.fromarray(picture)
@@ -135,83 +120,50 @@ def with_legend(picture: Bytes, scene: Scene) -> Bytes:
 
 def save(path: str | os.PathLike[str], picture: Bytes) -> None:
     """Write a picture to a PNG or JPEG file."""
+    require("writing a picture", "PIL")
     from PIL import Image
 
     Image.fromarray(picture).save(Path(path))
 
 
-def _fill(o3d: ModuleType, renderer: Any, scene: Scene, eye: Floats, up: Floats) -> None:
-    rendering = o3d.visualization.rendering
-    renderer.scene.set_background(_BACKGROUND)
-    grading = rendering.ColorGrading(
-        rendering.ColorGrading.Quality.ULTRA, rendering.ColorGrading.ToneMapping.LINEAR
-    )
-    renderer.scene.view.set_color_grading(grading)
-    # Light from behind the left shoulder, and some from everywhere.
-    sun = -(eye + 0.7 * up + 0.5 * np.cross(eye, up))
-    renderer.scene.scene.set_sun_light(sun, (1.0, 1.0, 1.0), _SUN)
-    renderer.scene.scene.enable_sun_light(True)
-    renderer.scene.scene.set_indirect_light_intensity(_SKY)
-    for name, geometry, material in _geometries(o3d, scene):
-        renderer.scene.add_geometry(name, geometry, material)
+def _run_open3d(folder: Path, task: tuple[Any, ...], seconds: float | None) -> None:
+    """Have :func:`igl_periods.pictures.drawing.main` do something, within some time."""
+    require("drawing", "open3d")
+    (folder / "task").write_bytes(pickle.dumps(task))
+    # What is imported there is what is imported here; it runs in an empty folder.
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(map(os.path.abspath, sys.path))}
+    if task[0] == "draw":
+        environment.setdefault("EGL_PLATFORM", "surfaceless")
+    try:
+        ended = subprocess.run(
+            [sys.executable, "-c", _PROGRAM, str(folder)],
+            check=False,
+            cwd=folder,
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            timeout=seconds,
+        )
+    except subprocess.TimeoutExpired as error:
+        raise RenderError(
+            f"Open3D has not drawn the picture in {error.timeout:.0f} s, and was ended. Drivers "
+            "that draw in software may hang: a newer Mesa is likely to help, or a smaller --size."
+        ) from error
+    if (folder / "error").exists():
+        raise RenderError((folder / "error").read_text("utf-8"))
+    if ended.returncode != 0:
+        raise RenderError(_last_words(ended))
 
 
-def _geometries(o3d: ModuleType, scene: Scene) -> Iterator[tuple[str, Any, Any]]:
-    yield "surface", _surface(o3d, scene), _material(o3d, scene.corner_uv is not None)
-    size = diagonal(scene.V)
-    parts = [
-        (*tube(curve.points, curve.normals, TUBE * size, curve.closed), curve.colour)
-        for curve in scene.tubes
-    ]
-    parts += [
-        (*_balls(o3d, points, radius * size), colour)
-        for points, radius, colour in scene.balls
-        if len(points)
-    ]
-    if parts:
-        start = np.cumsum([0, *(len(V) for V, _, _ in parts[:-1])])
-        V = np.concatenate([V for V, _, _ in parts])
-        F = np.concatenate([F + first for (_, F, _), first in zip(parts, start, strict=True)])
-        colours = np.concatenate([np.tile(colour, (len(V), 1)) for V, _, colour in parts])
-        yield "marks", _mesh(o3d, V, F, colours), _material(o3d)
-
-
-def _balls(o3d: ModuleType, points: Floats, radius: float) -> tuple[Floats, NDArray[np.int64]]:
-    ball = o3d.geometry.TriangleMesh.create_sphere(radius, resolution=10)
-    V, F = np.asarray(ball.vertices), np.asarray(ball.triangles).astype(np.int64)
-    faces = F + len(V) * np.arange(len(points))[:, None, None]
-    return (points[:, None] + V).reshape(-1, 3), faces.reshape(-1, 3)
-
-
-def _surface(o3d: ModuleType, scene: Scene) -> Any:
-    mesh = _mesh(o3d, scene.V, scene.F, scene.colours)
-    if scene.corner_uv is not None:
-        mesh.triangle_uvs = o3d.utility.Vector2dVector(scene.corner_uv.reshape(-1, 2))
-        mesh.triangle_material_ids = o3d.utility.IntVector(np.zeros(len(scene.F), dtype=np.int32))
-        mesh.textures = [o3d.geometry.Image(checkerboard())]
-    return mesh
-
-
-def _mesh(o3d: ModuleType, V: Floats, F: NDArray[np.int64], colours: Floats) -> Any:
-    mesh = o3d.geometry.TriangleMesh(
-        o3d.utility.Vector3dVector(V), o3d.utility.Vector3iVector(F.astype(np.int32))
-    )
-    # Vertices of the other sheet of a double have no face, hence no normal.
-    normals = np.nan_to_num(igl.per_vertex_normals(V, F))
-    # The engine takes them for linear; colours are meant as they appear on a screen.
-    mesh.vertex_colors = o3d.utility.Vector3dVector(np.asarray(colours) ** _GAMMA)
-    mesh.vertex_normals = o3d.utility.Vector3dVector(normals)
-    return mesh
-
-
-def _material(o3d: ModuleType, textured: bool = False) -> Any:
-    material = o3d.visualization.rendering.MaterialRecord()
-    material.shader = "defaultLit"
-    material.base_roughness = 0.7
-    material.base_reflectance = 0.3
-    if textured:
-        material.albedo_img = o3d.geometry.Image(checkerboard())
-    return material
+def _last_words(ended: subprocess.CompletedProcess[bytes]) -> str:
+    """How a process ended that should not have, and the last that it said."""
+    how = f"with exit code {ended.returncode}"
+    if ended.returncode < 0:
+        how = f"by {signal.Signals(-ended.returncode).name}"
+    said = ended.stderr.decode(errors="replace").split("\n")
+    words = [line.strip() for line in said if line.strip()][-1:] or ["nothing"]
+    return f"Open3D was ended while drawing, {how}. The last that it said: {words[0]}"
 
 
 def _camera(V: Floats, direction: ArrayLike | None) -> tuple[Floats, Floats]:
@@ -229,65 +181,3 @@ def _camera(V: Floats, direction: ArrayLike | None) -> tuple[Floats, Floats]:
     if np.linalg.norm(up) < 0.1:
         up = longest - (longest @ eye) * eye
     return eye, up / np.linalg.norm(up)
-
-
-def _distance(V: Floats, eye: Floats, up: Floats, aspect: float) -> float:
-    """Distance of the eye from the origin at which the points fill the picture."""
-    slope = 0.93 * np.tan(np.radians(0.5 * _FIELD_OF_VIEW))
-    sideways, upwards = np.abs(V @ np.cross(up, eye)), np.abs(V @ up)
-    return float(np.max(V @ eye + np.maximum(sideways / aspect, upwards) / slope))
-
-
-def _open3d(surfaceless: bool = True) -> ModuleType:
-    if surfaceless:
-        os.environ.setdefault("EGL_PLATFORM", "surfaceless")
-    try:
-        import open3d
-    except (ImportError, OSError) as error:
-        raise RenderError(
-            f"Open3D, which draws the pictures, cannot start: {_missing(error)}"
-        ) from error
-    open3d.utility.set_verbosity_level(open3d.utility.VerbosityLevel.Error)
-    return open3d
-
-
-def _missing(error: Exception) -> str:
-    """What to install, from an error of the loader."""
-    library = re.search(r"(lib[\w.+-]*?)\.so[.\d]*", str(error))
-    if library is None:
-        return f"{error}. Install it: pip install open3d"
-    package = _PACKAGES.get(library[1])
-    hint = f" (on Debian and Ubuntu: apt-get install {package})" if package else ""
-    return f"the system library {library[0]} is missing{hint}."
-
-
-def _check_egl() -> None:
-    """Raise unless EGL starts without a display: Open3D would end the whole program instead."""
-    try:
-        egl = ctypes.CDLL("libEGL.so.1")
-    except OSError as error:
-        raise RenderError(f"cannot draw without a display: {_missing(error)}") from error
-    egl.eglGetPlatformDisplay.restype = egl.eglGetDisplay.restype = ctypes.c_void_p
-    for display in (egl.eglGetPlatformDisplay(_SURFACELESS, None, None), egl.eglGetDisplay(None)):
-        if display and egl.eglInitialize(ctypes.c_void_p(display), None, None):
-            return
-    raise RenderError(
-        "cannot draw without a display: EGL finds no driver. The software renderer of Mesa is one "
-        "(on Debian and Ubuntu: apt-get install libegl-mesa0 libgl1-mesa-dri)."
-    )
-
-
-@contextmanager
-def _silence() -> Iterator[None]:
-    """Keep what the engine tells about itself off standard output and standard error."""
-    saved = [os.dup(1), os.dup(2)]
-    nowhere = os.open(os.devnull, os.O_WRONLY)
-    try:
-        os.dup2(nowhere, 1)
-        os.dup2(nowhere, 2)
-        yield
-    finally:
-        os.dup2(saved[0], 1)
-        os.dup2(saved[1], 2)
-        for descriptor in (*saved, nowhere):
-            os.close(descriptor)

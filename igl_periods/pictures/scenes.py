@@ -21,6 +21,7 @@ import numpy as np
 from igl_periods.arrays import Bytes, Floats, Ints
 from igl_periods.complexes import DeltaComplex, half_edge_ends, involution
 from igl_periods.differentials import Parametrization
+from igl_periods.display import arrays_repr
 from igl_periods.errors import ComplexError
 from igl_periods.harmonic import face_areas, spread_to_vertices
 from igl_periods.periods import MeshQuality, PeriodMatrix
@@ -41,6 +42,8 @@ _SQUARES, _CLIPPED = 60.0, 1.0
 @dataclass(frozen=True, eq=False)
 class Tube:
     """A curve: its points (k, 3), the normals of the surface there, its colour; closed or not."""
+
+    __repr__ = arrays_repr
 
     points: Floats
     normals: Floats
@@ -69,6 +72,8 @@ class Scene:
     caption : str
         What is to be seen, in words.
     """
+
+    __repr__ = arrays_repr
 
     V: Floats
     F: Ints

@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from igl_periods.arrays import Floats
 from igl_periods.differentials import Parametrization
+from igl_periods.extras import require
 
 from .scenes import checkerboard, checkerboard_scale, surface_in_space
 
@@ -56,6 +57,8 @@ def write_obj(
     ------
     ComplexError
         If the surface has no positions in space.
+    MissingExtraError
+        If Pillow is not installed.
     """
     obj = Path(path)
     material, texture = obj.with_suffix(".mtl"), obj.with_suffix(".png")
@@ -108,6 +111,7 @@ def _texture_coordinates(P: Parametrization, scale: float | None) -> Floats:
 
 
 def _checkerboard_png() -> bytes:
+    require("a texture", "PIL")
     from PIL import Image
 
     stream = io.BytesIO()

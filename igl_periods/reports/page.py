@@ -22,7 +22,9 @@ from numpy.typing import NDArray
 
 from igl_periods.arrays import Floats
 from igl_periods.differentials import Parametrization, most_even_form, parametrize
+from igl_periods.display import LARGEST_SHOWN, matrix_html
 from igl_periods.errors import ComplexError, RenderError
+from igl_periods.extras import require
 from igl_periods.meshes import MeshReport
 from igl_periods.periods import MeshQuality, PeriodMatrix, mesh_quality
 from igl_periods.pictures import (
@@ -38,10 +40,9 @@ from igl_periods.pictures import (
 )
 
 from .json_document import period_matrix_to_json
-from .words import advice, parametrization_in_words
+from .words import advice, bound_in_words, parametrization_in_words
 
 logger = logging.getLogger("igl_periods")
-_LARGEST_PRINTED = 8
 _CITATION = (
     "A. I. Bobenko, C. Mercat, M. Schmies, Period matrices of polyhedral surfaces, in: A. I. "
     "Bobenko, C. Klein (eds.), Computational Approach to Riemann Surfaces, Lecture Notes in "
@@ -74,7 +75,13 @@ def write_report(
         What :func:`~igl_periods.load_mesh` found in its file.
     size : (int, int)
         Width and height of the pictures in pixels.
+
+    Raises
+    ------
+    MissingExtraError
+        If matplotlib, Open3D or Pillow are not installed.
     """
+    require("a report", "matplotlib", "open3d", "PIL")
     quality = mesh_quality(pm.complex)
     P = parametrize(pm, most_even_form(pm)) if pm.genus else None
     page = Template(files(__package__).joinpath("page.html").read_text("utf-8"))
@@ -158,39 +165,16 @@ def _matrix(pm: PeriodMatrix) -> str:
         "whose integrals along a<sub>1</sub> … a<sub>g</sub> are 0, but for 1 along a<sub>k</sub>."
         "</p>",
         _table(pm),
-        f'<p class="bound">{escape(_bound_in_words(pm))}</p>',
+        f'<p class="bound">{escape(bound_in_words(pm))}</p>',
         _download(pm),
     ]
     return "\n".join(parts)
 
 
 def _table(pm: PeriodMatrix) -> str:
-    if pm.genus > _LARGEST_PRINTED:
+    if pm.genus > LARGEST_SHOWN:
         return f"<p>{pm.genus} × {pm.genus} entries; all of them are in the file below.</p>"
-    digits = 6
-    if pm.bound:
-        digits = int(np.clip(np.ceil(-np.log10(pm.bound)) + 1, 3, 15))
-    rows = (
-        "".join(f"<td>{z.real:+.{digits}f} {z.imag:+.{digits}f} i</td>" for z in row)
-        for row in pm.matrix
-    )
-    body = "\n".join(f"<tr>{row}</tr>" for row in rows).replace("-", "−")
-    return f'<div class="scroll"><table class="matrix">\n{body}\n</table></div>'
-
-
-def _bound_in_words(pm: PeriodMatrix) -> str:
-    bounds = pm.entry_bounds
-    if pm.bound is None or bounds is None:
-        return (
-            "There is no bound: these weights are not the energy of functions on the surface. "
-            "Intrinsic weights come with one."
-        )
-    return (
-        f"Π of this polyhedral surface is known to within {pm.bound:.2g}, relative to its size; no "
-        f"entry is off by more than {bounds.max():.2g}. This is a theorem, with an allowance for "
-        "rounding. It is about the surface made of these flat triangles: how well they represent a "
-        "smooth surface is another question, which the bound does not answer."
-    )
+    return f'<div class="scroll">{matrix_html(pm.matrix, pm.entry_bounds)}</div>'
 
 
 def _download(pm: PeriodMatrix) -> str:

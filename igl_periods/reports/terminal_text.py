@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import textwrap
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from igl_periods.display import LARGEST_SHOWN, integer_lines, matrix_lines
 from igl_periods.periods import PeriodMatrix
 from igl_periods.siegel import SIEGEL_GENUS_LIMIT
 
 from .words import bound_in_words
 
-LARGEST_PRINTED = 8  # genus up to which matrices are printed
+_WIDTH = 92
+LARGEST_PRINTED = LARGEST_SHOWN  # genus up to which matrices are printed
 
 
 def summary(pm: PeriodMatrix, reduced: PeriodMatrix | None, gamma: NDArray[np.int64] | None) -> str:
@@ -34,7 +37,7 @@ def summary(pm: PeriodMatrix, reduced: PeriodMatrix | None, gamma: NDArray[np.in
         f"Period matrix Π of genus {pm.genus}, {_marking_in_words(pm, reduced)}:",
         _indented(_complex_rows(shown)),
         "How far it can be off:",
-        _indented(bound_in_words(shown)),
+        _indented(textwrap.wrap(bound_in_words(shown), _WIDTH)),
     ]
     if gamma is not None:
         parts += [
@@ -63,22 +66,15 @@ def _marking_in_words(pm: PeriodMatrix, reduced: PeriodMatrix | None) -> str:
 
 def _complex_rows(pm: PeriodMatrix) -> list[str]:
     """Rows with as many digits as are known."""
-    Pi = pm.matrix
-    if len(Pi) > LARGEST_PRINTED:
-        return [f"{len(Pi)} × {len(Pi)} entries; --json prints all of them"]
-    digits = 6
-    if pm.bound:
-        digits = int(np.clip(np.ceil(-np.log10(pm.bound)) + 1, 3, 15))
-    # Adding 0 makes a rounded −0 a 0.
-    Pi = np.round(Pi, digits) + 0.0
-    return ["   ".join(f"{z.real:+.{digits}f} {z.imag:+.{digits}f} i" for z in row) for row in Pi]
+    if pm.genus > LARGEST_PRINTED:
+        return [f"{pm.genus} × {pm.genus} entries; --json prints all of them"]
+    return matrix_lines(pm.matrix, pm.entry_bounds)
 
 
 def _integer_rows(gamma: NDArray[np.int64]) -> list[str]:
     if len(gamma) > 2 * LARGEST_PRINTED:
         return [f"{len(gamma)} × {len(gamma)} integers; --json prints all of them"]
-    width = max(len(str(entry)) for entry in gamma.ravel())
-    return [" ".join(f"{entry:{width}d}" for entry in row) for row in gamma]
+    return integer_lines(gamma)
 
 
 def _indented(lines: list[Any]) -> str:

@@ -8,8 +8,8 @@ from __future__ import annotations
 import numpy as np
 
 from igl_periods.differentials import Parametrization
+from igl_periods.display import counted, rounded_up
 from igl_periods.periods import WIDE, MeshQuality, PeriodMatrix
-from igl_periods.wording import counted
 
 
 def parametrization_in_words(P: Parametrization) -> list[str]:
@@ -37,8 +37,9 @@ def advice(quality: MeshQuality) -> list[str]:
     if quality.symplectic_eigenvalues.size == 0:
         return ["The surface is a sphere: there are no periods, and nothing limits them."]
     lines = [
-        f"The period matrix of this polyhedral surface is known to within {quality.bound:.2g}, "
-        "relative to its size, from linear functions on its triangles.",
+        "The period matrix of this polyhedral surface is known to within "
+        f"{rounded_up(quality.bound)}, relative to its size, from linear functions on its "
+        "triangles.",
         *(_causes(quality) or [_no_cause(quality)]),
     ]
     if quality.half_of_the_bound < _FEW * quality.excess.size:
@@ -97,18 +98,24 @@ def _rate(quality: MeshQuality) -> float:
     return min(2.0, 4.0 * np.pi / float(quality.cone_angles.max()))
 
 
-def bound_in_words(pm: PeriodMatrix) -> list[str]:
+def trust_in_words(pm: PeriodMatrix) -> str:
+    """What stands behind the bound of a period matrix."""
+    if pm.rigorous:
+        return "This is proved."
+    return "This is a theorem, with an allowance for rounding."
+
+
+def bound_in_words(pm: PeriodMatrix) -> str:
     """What the bound of a period matrix says, and what it does not."""
     bounds = pm.entry_bounds
     if pm.bound is None or bounds is None:
-        return [
-            "There is no bound: these weights are not the energy of functions on the surface.",
-            "Intrinsic weights (the default) come with one.",
-        ]
-    return [
-        f"Π of this polyhedral surface is known to within {pm.bound:.2g}, relative to its size;",
-        f"no entry is off by more than {bounds.max():.2g}. This is a theorem, with an allowance "
-        "for rounding.",
-        "It is about the surface made of these flat triangles: how well they represent a smooth",
-        "surface is another question, which the bound does not answer.",
-    ]
+        return (
+            "There is no bound: these weights are not the energy of functions on the surface. "
+            "Intrinsic weights (the default) come with one."
+        )
+    return (
+        f"Π of this polyhedral surface is known to within {rounded_up(pm.bound)}, relative to its "
+        f"size; no entry is off by more than {rounded_up(float(bounds.max()))}. "
+        f"{trust_in_words(pm)} It is about the surface made of these flat triangles: how well they "
+        "represent a smooth surface is another question, which the bound does not answer."
+    )

@@ -34,6 +34,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Complexes, Ints
+from igl_periods.display import facts_html, integer_lines, lines_html, matrix_html, matrix_lines
 from igl_periods.symplectic import energy_matrix, form_action
 
 from .action import moebius
@@ -56,6 +57,8 @@ SIEGEL_GENUS_LIMIT = 1000
 # After so many steps (there are seldom ten) every single quasi-inversion starts from exact values,
 # so that det Y rises for certain.
 _HASTY_STEPS = 100
+# Rows up to which γ is shown in a notebook.
+_GAMMA_SHOWN = 16
 
 
 class SiegelReduction(NamedTuple):
@@ -71,6 +74,17 @@ class SiegelReduction(NamedTuple):
 
     matrix: Complexes
     gamma: Ints
+
+    def __repr__(self) -> str:
+        lines = [f"  {line}" for line in matrix_lines(self.matrix, None)]
+        size = len(self.gamma)
+        return "\n".join([f"SiegelReduction by γ ({size} × {size}) to", *lines])
+
+    def _repr_html_(self) -> str:
+        gamma = self.gamma if len(self.gamma) <= _GAMMA_SHOWN else self.gamma[:0]
+        parts = [matrix_html(self.matrix, None)]
+        parts += [lines_html("γ", integer_lines(gamma))] if gamma.size else []
+        return facts_html("Siegel reduction", [("genus", len(self.matrix))], *parts)
 
 
 def siegel_reduce(Pi: ArrayLike, *, max_genus: int = SIEGEL_GENUS_LIMIT) -> SiegelReduction:

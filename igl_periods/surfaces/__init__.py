@@ -37,9 +37,9 @@ from .cyclic_covers import cyclic_cover
 from .subdivision import subdivide
 from .cube_solids import menger_sponge, thickened_lattice
 from .voxels import voxel_surface
-from .named_surfaces import catalogue
-from .identification import Identification, identify
 from .named_surface import NamedSurface
+from .named_surfaces import catalogue
+from .identification import Identification, Match, identify, matrix_of
 
 __all__ = [
     "glued_rectangles",
@@ -70,8 +70,10 @@ __all__ = [
     "menger_sponge",
     "thickened_lattice",
     "voxel_surface",
+    "NamedSurface",
     "catalogue",
     "Identification",
+    "Match",
     "identify",
-    "NamedSurface",
+    "matrix_of",
 ]

@@ -22,12 +22,16 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import overload
+from functools import singledispatch
+from numbers import Real
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Complexes, Ints
+from igl_periods.complexes import SurfaceLike, as_complex, is_array_like
+from igl_periods.display import facts_html
 from igl_periods.moduli import (
     ARRAY_TOLERANCE,
     LARGEST_TOLERANCE,
@@ -68,6 +72,12 @@ class Match:
     gamma: Ints
     claim: str
 
+    def __repr__(self) -> str:
+        return f"Match({self.surface.name}: {self.claim})"
+
+    def _repr_html_(self) -> str:
+        return facts_html("Match", [(self.surface.name, self.claim)])
+
 
 @dataclass(frozen=True, eq=False)
 class Identification(Sequence[Match]):
@@ -101,6 +111,18 @@ class Identification(Sequence[Match]):
     def __getitem__(self, index: int | slice) -> Match | tuple[Match, ...]:
         return self.matches[index]
 
+    def __repr__(self) -> str:
+        names = ", ".join(match.surface.name for match in self.matches) or "none"
+        undecided = f"; {len(self.undecided)} undecided" if self.undecided else ""
+        return (
+            f"Identification({names} of {len(self.compared)} surfaces of genus {self.genus}"
+            f"{undecided})"
+        )
+
+    def _repr_html_(self) -> str:
+        rows = [line.partition(": ")[::2] for line in str(self).splitlines()]
+        return facts_html(f"Named surfaces of genus {self.genus} near Π", rows)
+
     def __str__(self) -> str:
         lines = [f"{match.surface.name}: {match.claim}" for match in self.matches]
         n_decided = len(self.compared) - len(self.undecided)
@@ -113,14 +135,32 @@ class Identification(Sequence[Match]):
         return "\n".join(lines)
 
 
-def identify(Pi: ArrayLike, tolerance: float | None = None) -> Identification:
+@singledispatch
+def matrix_of(surface: Any) -> Any:
+    """The period matrix of a complex, as the package that computes such matrices registers it."""
+    raise NotImplementedError(f"no period matrix of {type(surface).__name__} is computed here")
+
+
+@overload
+def identify(Pi: ArrayLike | SurfaceLike, *, tolerance: float | None = None) -> Identification: ...
+@overload
+def identify(Pi: ArrayLike | SurfaceLike, tolerance: float | None, /) -> Identification: ...
+@overload
+def identify(V: ArrayLike, F: ArrayLike, /, tolerance: float | None = None) -> Identification: ...
+def identify(Pi: Any, F: Any = None, tolerance: float | None = None) -> Identification:
     """Find the named surfaces whose exact period matrices are near Π.
+
+    Called as ``identify(Pi, tolerance)``, ``identify(surface, tolerance)`` or
+    ``identify(V, F, tolerance)``.
 
     Parameters
     ----------
-    Pi : (g, g) array-like or PeriodMatrix
+    Pi : (g, g) array-like or PeriodMatrix, or surface
         With a certificate, Π is known within log(1 + bound); a plain array is taken to be right to
-        1e-8.
+        1e-8.  Of a surface (:func:`~igl_periods.complexes.as_complex`) the period matrix is
+        computed, of degree 1.
+    F : (m, 3) array-like of int, optional
+        The triangles, where ``Pi`` is V.
     tolerance : float, optional
         How far the polyhedral surface may be from the surface that is meant (the error of the
         mesh), as a deviation.  If it is not stated, claims are about the polyhedral surface only.
@@ -142,6 +182,10 @@ def identify(Pi: ArrayLike, tolerance: float | None = None) -> Identification:
     >>> print(identify([[-0.5 + 0.5j]]))  # doctest: +ELLIPSIS
     square torus: within 0: consistent with the accuracy of the array (1e-08); ...
     """
+    if tolerance is None and isinstance(F, Real):
+        F, tolerance = None, F
+    if F is not None or not is_array_like(Pi):
+        Pi = matrix_of(as_complex(Pi, F))
     matrix = check_siegel_point(Pi)
     if tolerance is not None and not tolerance >= 0:
         raise ValueError(f"the tolerance must not be negative, but it is {tolerance}")

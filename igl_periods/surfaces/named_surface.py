@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from igl_periods.arrays import Complexes
+from igl_periods.display import facts_html, matrix_html
 from igl_periods.siegel import check_siegel_point
 
 
@@ -29,6 +30,14 @@ class NamedSurface:
     genus: int
     source: str
     _exact: Callable[[], Complexes]
+
+    def __repr__(self) -> str:
+        return f"NamedSurface({self.name}, genus {self.genus})"
+
+    def _repr_html_(self) -> str:
+        names = ", ".join(self.aliases) or "none"
+        facts = [("genus", self.genus), ("other names", names), ("source", self.source)]
+        return facts_html(self.name, facts, matrix_html(self.matrix, None))
 
     @cached_property
     def matrix(self) -> Complexes:

@@ -104,7 +104,7 @@ def _check_corners(padded: Bools) -> None:
     code = np.zeros(tuple(n - 1 for n in padded.shape), dtype=np.uint8)
     for bit, place in enumerate(itertools.product((0, 1), repeat=3)):
         window = tuple(slice(p, p + n) for p, n in zip(place, code.shape, strict=True))
-        code |= padded[window].astype(np.uint8) << bit
+        code |= padded[window].astype(np.uint8) << np.uint8(bit)
     pinched = np.argwhere(~_is_regular()[code])
     if len(pinched):
         raise MeshError(

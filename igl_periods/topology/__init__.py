@@ -46,10 +46,10 @@ __all__ = [
     "homology_basis",
     "canonical_cycles",
     "dual_homology_basis",
+    "FundamentalPolygon",
     "fundamental_polygon",
     "shortest_loops",
     "cut_to_disk",
     "crossing_cochain",
     "dual_walk",
-    "FundamentalPolygon",
 ]

@@ -31,7 +31,12 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from igl_periods.arrays import Ints
-from igl_periods.complexes import DeltaComplex, MarkedComplex, check_closed_and_oriented
+from igl_periods.complexes import (
+    DeltaComplex,
+    MarkedComplex,
+    check_closed_and_oriented,
+    of_a_surface,
+)
 from igl_periods.errors import ComplexError
 from igl_periods.symplectic import integer_symplectic_basis, standard_form
 
@@ -80,13 +85,14 @@ def pairing(K: DeltaComplex, alpha: csr_array, beta: csr_array) -> Ints:
     return twice // 2
 
 
+@of_a_surface
 def cohomology_basis(K: DeltaComplex, root: int = 0) -> csr_array:
     """A canonical basis of integer cohomology.
 
     Parameters
     ----------
-    K : DeltaComplex
-        Closed, oriented, connected.
+    K : surface
+        As for :func:`~igl_periods.period_matrix`: closed, oriented, connected.
     root : int
         Vertex at which the tree starts; another root gives another basis.
 

@@ -10,17 +10,30 @@ from __future__ import annotations
 import numpy as np
 
 from igl_periods.arrays import Ints
-from igl_periods.complexes import DeltaComplex, check_closed_and_oriented, half_edge_ends
+from igl_periods.complexes import (
+    DeltaComplex,
+    check_closed_and_oriented,
+    half_edge_ends,
+    of_a_surface,
+)
 from igl_periods.symplectic import integer_symplectic_basis, standard_form
 
 from .cohomology import cotree_cochains, pairing
 from .spanning_trees import TreeCotree, tree_cotree
 
 
+@of_a_surface
 def homology_basis(K: DeltaComplex, root: int = 0) -> list[Ints]:
     """The canonical cycles a_1..a_g, b_1..b_g as closed walks along edges.
 
     They are dual to :func:`cohomology_basis` for the same root: ∮_{a_j} α_i = δ_ij = ∮_{b_j} β_i.
+
+    Parameters
+    ----------
+    K : surface
+        As for :func:`~igl_periods.period_matrix`: closed, oriented, connected.
+    root : int
+        Vertex at which the tree starts.
 
     Returns
     -------
@@ -93,7 +106,7 @@ def without_returns(walk: Ints, twin: Ints) -> Ints:
 def _combined(K: DeltaComplex, loops: list[Ints], coefficients: Ints) -> Ints:
     """Loops with one base point, run through one after the other."""
     twin = K.twin.ravel()
-    parts = [np.zeros(0, dtype=np.int64)]
+    parts: list[Ints] = [np.zeros(0, dtype=np.int64)]
     for k in np.flatnonzero(coefficients):
         loop = loops[k] if coefficients[k] > 0 else reversed_walk(loops[k], twin)
         parts += [loop] * int(abs(coefficients[k]))

@@ -23,16 +23,24 @@ from __future__ import annotations
 import numpy as np
 
 from igl_periods.arrays import Ints
-from igl_periods.complexes import DeltaComplex, half_edge_ends, next_corner
+from igl_periods.complexes import DeltaComplex, half_edge_ends, next_corner, of_a_surface
 from igl_periods.errors import ComplexError
 
 from .cycles import homology_basis, without_returns
 
 
+@of_a_surface
 def dual_homology_basis(K: DeltaComplex, root: int = 0) -> list[Ints]:
     """The canonical cycles a_1..a_g, b_1..b_g as closed walks of faces, cycles on Γ*.
 
     They are those of :func:`igl_periods.homology_basis`, moved off the edges to the left.
+
+    Parameters
+    ----------
+    K : surface
+        As for :func:`~igl_periods.period_matrix`: closed, oriented, connected.
+    root : int
+        As in :func:`igl_periods.homology_basis`.
 
     Returns
     -------

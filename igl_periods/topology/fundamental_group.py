@@ -39,11 +39,15 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import breadth_first_order
 
 from igl_periods.arrays import Ints
-from igl_periods.complexes import DeltaComplex, check_surface, next_corner
+from igl_periods.complexes import DeltaComplex, check_surface, next_corner, of_a_surface
+from igl_periods.display import facts_html
 from igl_periods.errors import ComplexError
 
 from .cycles import rooted_loops
 from .spanning_trees import TreeCotree, checked_edge_lengths, shortest_tree_cotree, tree_cotree
+
+# Letters of the word that a notebook shows: those of genus 8.
+_LETTERS_SHOWN = 32
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,14 +66,24 @@ class FundamentalPolygon:
     boundary: Ints
     word: Ints
 
+    def __repr__(self) -> str:
+        return f"FundamentalPolygon({self.word.size} sides, {self.boundary.size} edges around)"
 
+    def _repr_html_(self) -> str:
+        shown = [f"x{abs(k)}{'⁻¹' * (k < 0)}" for k in self.word[:_LETTERS_SHOWN].tolist()]
+        word = " ".join([*shown, *["…"] * (self.word.size > _LETTERS_SHOWN)])
+        facts = [("sides", self.word.size), ("edges around", self.boundary.size), ("word", word)]
+        return facts_html("Fundamental polygon", facts)
+
+
+@of_a_surface
 def fundamental_polygon(K: DeltaComplex, trees: TreeCotree | None = None) -> FundamentalPolygon:
     """Cut a surface open along a tree and the edges that are left over.
 
     Parameters
     ----------
-    K : DeltaComplex
-        Closed, oriented, connected.
+    K : surface
+        As for :func:`~igl_periods.period_matrix`: closed, oriented, connected.
     trees : TreeCotree, optional
         The default is ``tree_cotree(K)``; also ``shortest_tree_cotree(K, root)``.
 
@@ -97,26 +111,7 @@ def fundamental_polygon(K: DeltaComplex, trees: TreeCotree | None = None) -> Fun
     return FundamentalPolygon(boundary, word[word != 0])
 
 
-def word_pairing(word: Ints) -> Ints:
-    """The pairings ∫ c_k ∧ c_l of the cochains of the letters, read off the word; (2g, 2g).
-
-    Parameters
-    ----------
-    word : (4g,) int
-        As :class:`FundamentalPolygon` has it: the letters ±1, …, ±2g, each once.
-    """
-    order = np.argsort(word)
-    half = word.size // 2
-    inverse, place = order[:half][::-1], order[half:]
-    low, high = np.minimum(place, inverse), np.maximum(place, inverse)
-
-    def between(x: Ints) -> Ints:
-        inside = (low[:, None] < x) & (x < high[:, None])
-        return inside.astype(np.int64)
-
-    return np.sign(inverse - place)[:, None] * (between(place) - between(inverse))
-
-
+@of_a_surface
 def shortest_loops(
     K: DeltaComplex, root: int = 0, edge_lengths: ArrayLike | None = None
 ) -> list[Ints]:
@@ -124,8 +119,8 @@ def shortest_loops(
 
     Parameters
     ----------
-    K : DeltaComplex
-        Closed, oriented, connected.
+    K : surface
+        As for :func:`~igl_periods.period_matrix`: closed, oriented, connected.
     root : int
         Vertex at which all loops start and end.
     edge_lengths : (n_edges,) array-like, optional

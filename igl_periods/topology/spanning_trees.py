@@ -29,6 +29,7 @@ from igl_periods.complexes import (
     half_edge_ends,
     index_type,
 )
+from igl_periods.display import arrays_repr
 from igl_periods.errors import ComplexError
 
 
@@ -45,6 +46,8 @@ class TreeCotree:
     generators : (2g,) int
         The half-edges, running with their edges, of the edges in neither tree.
     """
+
+    __repr__ = arrays_repr
 
     vertex_parent: Ints
     face_parent: Ints

@@ -1,6 +1,6 @@
 """Mesh files, one module for each format.
 
-``read`` chooses by the extension; every format makes a ``mesh_file.MeshFile``.  OBJ and OFF go
-through ``libigl`` after ``text`` has counted their lines, PLY and STL are read here, others by
-``open3d``.
+``read`` chooses by the extension; ``compression`` fetches the bytes; every format makes a
+``mesh_file.MeshFile`` of them.  ``text`` knows lines and numbers of text formats, ``placement`` the
+affine maps of scenes (glTF, 3MF).
 """

@@ -1,4 +1,4 @@
-"""What a mesh file holds, and its polygons as triangles."""
+"""What a mesh file holds: positions and polygons."""
 
 from __future__ import annotations
 
@@ -17,28 +17,36 @@ class MeshFile:
     Attributes
     ----------
     V : (n, 3) float
-    F : (m, 3) int
-        Triangles; polygons are replaced by their fans.
-    n_faces, n_polygons : int
-        Faces in the file, and those of them with more than three corners.
+    corners : (sum(degrees),) int
+        The corners of all faces, one face after the other.
+    degrees : (m,) int
+        Number of corners of each face.
     n_welded : int
         Vertices saved by giving STL corners at the same position one vertex.
+    warnings : tuple of str
+        What is odd about the file, though it could be read.
     """
 
     V: Floats
-    F: Ints
-    n_faces: int
-    n_polygons: int
+    corners: Ints
+    degrees: Ints
     n_welded: int = 0
+    warnings: tuple[str, ...] = ()
 
 
-def fans(corners: Ints, degrees: Ints) -> Ints:
-    """Triangulate polygons, given one after the other: (c_0, c_i, c_{i+1}) for 0 < i < degree-1."""
-    first = np.cumsum(degrees) - degrees
-    triangles = degrees - 2
-    apex = np.repeat(first, triangles)
-    i = np.arange(apex.size) - np.repeat(np.cumsum(triangles) - triangles, triangles) + 1
-    return corners[np.column_stack([apex, apex + i, apex + i + 1])]
+def mesh_of_triangles(
+    V: Floats, F: Ints, n_welded: int = 0, warnings: tuple[str, ...] = ()
+) -> MeshFile:
+    """A file whose faces are triangles."""
+    degrees = np.full(len(F), 3, dtype=np.int64)
+    return MeshFile(V, F.ravel().astype(np.int64), degrees, n_welded, warnings)
+
+
+def triangles_of_strip(strip: Ints) -> Ints:
+    """The triangles of a strip, every second one turned, without those that only join parts."""
+    i = np.arange(max(strip.size - 2, 0))
+    F = strip[np.column_stack([i, i + 1 + i % 2, i + 2 - i % 2])]
+    return F[(F != np.roll(F, 1, axis=1)).all(axis=1)]
 
 
 def checked_degrees(degrees: Ints) -> Ints:

@@ -1,13 +1,7 @@
-"""Mesh files: vertex positions and triangles, in double precision and in the order of the file.
+"""Mesh files: positions and polygons, in double precision and in the order of the file.
 
-OBJ and OFF are read by libigl, which triangulates a polygon by its fan (c_0, c_i, c_{i+1}).
-libigl trusts what a file declares, and ends the process or reads something else where it is
-wrong; therefore the lines are counted first, libigl is given nothing but the vertices and the
-faces, and what it returns must agree with the count.  STL, three corners for every triangle and
-no connectivity, needs no library; corners at the same position are the same vertex.
-
-Other formats are left to Open3D.  It is not used for the first three because it drops polygons,
-rounds coordinates to single precision and splits vertices along seams of textures.
+Readers trust nothing: every number is matched before it is converted, every count is compared with
+what is there, and every reader gets all bytes of the file, decompressed.
 """
 
 from __future__ import annotations
@@ -19,19 +13,31 @@ from pathlib import Path
 from igl_periods.complexes import check_finite, checked_positions
 from igl_periods.errors import MeshError
 
+from .compression import content
+from .gltf import mesh_from_gltf
 from .mesh_file import MeshFile
 from .obj import mesh_from_obj
 from .off import mesh_from_off
-from .open3d import mesh_from_open3d
 from .ply import mesh_from_ply
 from .stl import mesh_from_stl
+from .three_mf import mesh_from_3mf
 
-# Extensions that Open3D reads and libigl does not.
-_OPEN3D = (".gltf", ".glb", ".fbx")
+_COMPRESSED = ".gz"
+# What to do with files that hold surfaces of another kind, or that no kept library reads rightly.
+_EXPORTS = {
+    **dict.fromkeys((".step", ".stp", ".iges", ".igs"), " Export the part as STL or 3MF."),
+    **dict.fromkeys((".fbx", ".blend", ".dae"), " Export the mesh as glTF or OBJ."),
+}
+
+
+def extension_of(name: str) -> str:
+    """The extension of a file in small letters, without that of compression."""
+    path = Path(name.lower())
+    return Path(path.stem).suffix if path.suffix == _COMPRESSED else path.suffix
 
 
 def read_mesh_file(path: str | PathLike[str]) -> MeshFile:
-    """Read OBJ, OFF, PLY or STL, or what Open3D reads.
+    """Read a mesh, compressed or not.
 
     Raises
     ------
@@ -45,36 +51,47 @@ def read_mesh_file(path: str | PathLike[str]) -> MeshFile:
         raise FileNotFoundError(f"there is no mesh file {str(file)!r}")
     if not file.is_file():
         raise MeshError(f"{file}: this is no file.")
-    extension = file.suffix.lower()
+    extension = extension_of(file.name)
     if extension not in EXTENSIONS:
         known = " ".join(EXTENSIONS)
-        raise MeshError(f"{file}: the format {extension or '(none)'!r} is not one of {known}.")
-    if file.stat().st_size == 0:
-        raise MeshError(f"{file}: the file is empty.")
+        raise MeshError(
+            f"{file}: the format {extension or '(none)'!r} is not one of {known}, with or without "
+            f"{_COMPRESSED}.{_EXPORTS.get(extension, '')}"
+        )
     try:
-        mesh = _READERS[extension](file) if extension in _READERS else mesh_from_open3d(file)
+        data = content(file, file.suffix.lower() == _COMPRESSED)
+        mesh = _reader(extension, file.parent)(data)
         _check(mesh)
     except MeshError as error:
         raise MeshError(f"{file}: {error}") from error
     return mesh
 
 
+def _reader(extension: str, folder: Path) -> Callable[[bytes], MeshFile]:
+    # The buffers of glTF may be files beside it.
+    if extension in _GLTF:
+        return lambda data: mesh_from_gltf(data, folder)
+    return _READERS[extension]
+
+
 def _check(mesh: MeshFile) -> None:
-    if len(mesh.F) == 0:
+    if mesh.degrees.size == 0:
         raise MeshError(f"the mesh is empty: {len(mesh.V)} vertices and no faces.")
-    if mesh.F.min() < 0 or mesh.F.max() >= len(mesh.V):
+    if mesh.corners.min() < 0 or mesh.corners.max() >= len(mesh.V):
         raise MeshError(
-            f"faces refer to vertices {mesh.F.min()} to {mesh.F.max()} (counted from 0), and there "
-            f"are {len(mesh.V)}: the file is truncated or corrupt."
+            f"faces refer to vertices {mesh.corners.min()} to {mesh.corners.max()} (counted from "
+            f"0), and there are {len(mesh.V)}: the file is truncated or corrupt."
         )
-    check_finite(checked_positions(mesh.V), mesh.F)
+    check_finite(checked_positions(mesh.V), mesh.corners)
 
 
-_READERS: dict[str, Callable[[Path], MeshFile]] = {
+_GLTF = (".gltf", ".glb")
+_READERS: dict[str, Callable[[bytes], MeshFile]] = {
     ".obj": mesh_from_obj,
     ".off": mesh_from_off,
     ".ply": mesh_from_ply,
     ".stl": mesh_from_stl,
+    ".3mf": mesh_from_3mf,
 }
 # Extensions of the files that can be read.
-EXTENSIONS = (*_READERS, *_OPEN3D)
+EXTENSIONS = (*_READERS, *_GLTF)

@@ -17,6 +17,7 @@ import numpy as np
 from scipy.spatial import Delaunay, cKDTree
 
 from igl_periods.arrays import Floats, Ints
+from igl_periods.display import arrays_repr
 
 from .disc import SIDES, divided, minimal_disc
 from .plateau import Patch, on_sides
@@ -44,6 +45,8 @@ class DiscChart:
     boundary : (4 + 4 r, 2) float
         The corners and the points of the sides in the square.
     """
+
+    __repr__ = arrays_repr
 
     grid: Floats
     area: Floats

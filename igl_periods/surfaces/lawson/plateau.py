@@ -31,6 +31,7 @@ from scipy.sparse.linalg import splu
 
 from igl_periods.arrays import Floats, Ints
 from igl_periods.complexes import cotangents
+from igl_periods.display import arrays_repr
 from igl_periods.errors import MeshError
 
 _MAX_ITERATIONS = 60
@@ -53,6 +54,8 @@ class Patch:
         Angles t of the vertices p cos t + q sin t of each side.
     n_corners : int
     """
+
+    __repr__ = arrays_repr
 
     x: Floats
     faces: Ints
