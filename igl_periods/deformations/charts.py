@@ -36,6 +36,7 @@ from igl_periods.complexes import (
     with_edge_lengths,
     with_positions,
 )
+from igl_periods.errors import ComplexError
 from igl_periods.harmonic import (
     face_areas,
     factor,
@@ -45,6 +46,8 @@ from igl_periods.harmonic import (
     spread_to_vertices,
 )
 from igl_periods.periods import Gradient
+
+from .crossings import passes_through_itself
 
 
 class Chart(Protocol):
@@ -73,24 +76,29 @@ class VertexChart:
     given: DeltaComplex
     smoothing: float
     basis: Floats | None = None  # (n, k)
+    embedded: bool = False
 
     @classmethod
-    def of(cls, K: DeltaComplex, functions: ArrayLike | None, smoothing: float) -> VertexChart:
+    def of(
+        cls, K: DeltaComplex, functions: ArrayLike | None, smoothing: float, embedded: bool = False
+    ) -> VertexChart:
         """The chart around a surface with positions, for functions (n, k) at its vertices.
 
         Raises
         ------
         ValueError
-            If the functions have another shape, are not finite, or are linearly dependent; or if
-            the smoothing is negative.
+            If the functions have another shape, are not finite, or are linearly dependent; if the
+            smoothing is negative; or if the surface is to stay embedded and is not.
         ComplexError
             If there are no positions.
         """
         edge_directions(K)
         if not 0.0 <= smoothing < np.inf:
             raise ValueError(f"smoothing = {smoothing}: it is a number from 0 on.")
+        if embedded and _meets_itself(K):
+            raise ValueError("the surface passes through itself: leave embedded=True away.")
         if functions is None:
-            return cls(K, smoothing)
+            return cls(K, smoothing, None, embedded)
         B = np.asarray(functions, dtype=np.float64)
         if B.ndim != 2 or len(B) != K.n_vertices or not np.isfinite(B).all():
             raise ValueError(
@@ -99,7 +107,7 @@ class VertexChart:
             )
         if np.linalg.matrix_rank(B) < B.shape[1]:
             raise ValueError("the functions of the basis are linearly dependent, or nearly.")
-        return cls(K, smoothing, B)
+        return cls(K, smoothing, B, embedded)
 
     def start(self) -> Floats:
         """No displacement."""
@@ -108,7 +116,10 @@ class VertexChart:
 
     def surface(self, x: Floats) -> DeltaComplex:
         """The mesh with its vertices displaced."""
-        return with_positions(self.given, self._positions + self._displacement(x))
+        moved = with_positions(self.given, self._positions + self._displacement(x))
+        if self.embedded and _meets_itself(moved):
+            raise ComplexError("the surface would pass through itself.")
+        return moved
 
     def rows(self, K: DeltaComplex, gradient: Gradient) -> Floats:
         """Gradients by vertices, restricted to the functions of the basis."""
@@ -174,6 +185,14 @@ class LengthChart:
         sides = dx[K.edge]
         trace, shear = (np.sum(part * sides, axis=1) for part in (traces, mu))
         return float((0.5 * np.abs(trace) + np.abs(shear)).max())
+
+
+def _meets_itself(K: DeltaComplex) -> bool:
+    """In R³; ValueError elsewhere."""
+    assert K.positions is not None
+    if K.positions.shape[1] != 3:
+        raise ValueError("embedded=True is for surfaces in R³.")
+    return passes_through_itself(K.positions, K.corner_vertex)
 
 
 def strain_norm(K: DeltaComplex) -> csc_array:

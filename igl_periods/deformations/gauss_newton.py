@@ -5,10 +5,19 @@ in which Siegel's metric is Euclidean (:func:`~igl_periods.siegel.orthonormal_we
 of the derivative J are their gradients.  Steps are :math:`dx = J^+ r` with the r of the geodesic to
 the target, J⁺ by singular values, of which only as many are used as surfaces have moduli.
 
-A step is shortened until no edge changes by more than a fifth, every triangle keeps a part of its
-slack, and the distance to the target falls.  Where Π is a submersion the iteration is Newton's, and
-ends with quadratic convergence.  At hyperelliptic surfaces of genus 3 or more the derivative of Π
-drops in rank: towards them distances fall by a constant factor, about 4 in each step.
+Steps may strain no edge by more than a fifth, and leave a part of the slack of every triangle.
+Where Newton's step is too long it is shortened, and as another attempt damped,
+:math:`dx = N^{-1} J^T (J N^{-1} J^T + \mu)^{-1} r` with the least μ that will do
+(Levenberg–Marquardt), which holds back what costs much strain and gains little; the attempt that
+comes nearer is taken.  Where the distance does not fall, half the strain is allowed.
+
+Where Π is a submersion the iteration ends with quadratic convergence.  At hyperelliptic surfaces of
+genus 3 or more the derivative of Π drops in rank: towards them distances fall by a constant factor,
+about 4 in each step.
+
+References
+----------
+Nocedal, Wright, "Numerical optimization" (2006), section 10.3.
 """
 
 from __future__ import annotations
@@ -32,6 +41,8 @@ _LARGEST_STRAIN = 0.2
 # Part of the slack of each triangle that a step leaves.
 _SLACK_KEPT = 0.25
 _MOST_HALVINGS = 12
+# To within this factor the least damping is found.
+_DAMPING_RATIO = 1.3
 # Squares of singular values of J below this part of the largest are rounding.
 _RANK = 1e-13
 # Steps in a row that gain less than this part of the distance end the iteration.
@@ -107,21 +118,44 @@ class GaussNewton:
         K = pm.complex
         J, r = self._linearised(pm)
         raised = self.chart.raised(K, J)
-        dx = (_inverse(J @ raised.T, _moduli(pm.genus)) @ r) @ raised
-        dx *= min(1.0, _LARGEST_STRAIN / max(self.chart.strain(K, dx), 1e-300))
-        slack = slacks(K.lengths)
+        solution = _DampedSolution.of(J @ raised.T, r, _moduli(pm.genus))
+        slack, strain = slacks(K.lengths), _LARGEST_STRAIN
         for _ in range(_MOST_HALVINGS):
-            try:
-                there = self.chart.surface(x + dx)
-                if (slacks(there.lengths) >= _SLACK_KEPT * slack).all():
-                    after = self.compute(there)
-                    new_distance = siegel_distance(after.matrix, self.target)
-                    if new_distance < distance:
-                        return dx, after, new_distance
-            except ComplexError as error:
-                logger.debug("a shorter step is needed: %s", error)
-            dx = 0.5 * dx
+            tried = [self._tried(x, dx, slack) for dx in self._steps(K, raised, solution, strain)]
+            best = min(tried, key=lambda one: one[2])
+            if best[1] is not None and best[2] < distance:
+                return best[0], best[1], best[2]
+            strain = 0.5 * min(strain, *(self.chart.strain(K, dx) for dx, _, _ in tried))
         return None
+
+    def _steps(
+        self, K: DeltaComplex, raised: Floats, solution: _DampedSolution, strain: float
+    ) -> list[Floats]:
+        """Newton's step; where it strains too much, shortened, and damped as little as may be."""
+        newton = np.asarray(solution.at(0.0) @ raised)
+        too_much = self.chart.strain(K, newton) / strain
+        if too_much <= 1.0:
+            return [newton]
+        low, high = solution.dampings
+        while high > _DAMPING_RATIO * low:
+            middle = np.sqrt(low * high)
+            more = self.chart.strain(K, solution.at(middle) @ raised) > strain
+            low, high = (middle, high) if more else (low, middle)
+        damped = np.asarray(solution.at(high) @ raised)
+        return [newton / too_much, damped / max(1.0, self.chart.strain(K, damped) / strain)]
+
+    def _tried(
+        self, x: Floats, dx: Floats, slack: Floats
+    ) -> tuple[Floats, PeriodMatrix | None, float]:
+        """A step, with the matrix and the distance after it; None and ∞ where it cannot be made."""
+        try:
+            there = self.chart.surface(x + dx)
+            if (slacks(there.lengths) >= _SLACK_KEPT * slack).all():
+                pm = self.compute(there)
+                return dx, pm, siegel_distance(pm.matrix, self.target)
+        except ComplexError as error:
+            logger.debug("a shorter step is needed: %s", error)
+        return dx, None, np.inf
 
     def _linearised(self, pm: PeriodMatrix) -> tuple[Floats, Floats]:
         """J and r in orthonormal tangent coordinates at Π; (g (g + 1), N) and (g (g + 1),)."""
@@ -131,12 +165,29 @@ class GaussNewton:
         return self.chart.rows(pm.complex, pm.gradient(W)), r
 
 
-def _inverse(A: Floats, rank: int) -> Floats:
-    """The pseudoinverse of J N⁻¹ Jᵀ by its largest eigenvalues, ``rank`` at most."""
-    squares, U = np.linalg.eigh(A)
-    squares, U = squares[::-1][:rank], U[:, ::-1][:, :rank]
-    kept = squares > _RANK * squares[0]
-    return np.asarray((U[:, kept] / squares[kept]) @ U[:, kept].T)
+@dataclass(frozen=True, eq=False)
+class _DampedSolution:
+    """(J N⁻¹ Jᵀ + μ)⁻¹ r on the largest eigenvalues, as many as there are moduli."""
+
+    eigenvalues: Floats
+    U: Floats
+    r: Floats
+
+    @classmethod
+    def of(cls, A: Floats, r: Floats, rank: int) -> _DampedSolution:
+        squares, U = np.linalg.eigh(A)
+        squares, U = squares[::-1][:rank], U[:, ::-1][:, :rank]
+        kept = squares > _RANK * squares[0]
+        return cls(squares[kept], U[:, kept], U[:, kept].T @ r)
+
+    @property
+    def dampings(self) -> tuple[float, float]:
+        """A μ that hardly damps anything, and one that damps nearly all."""
+        return 1e-3 * float(self.eigenvalues[-1]), 1e3 * float(self.eigenvalues[0])
+
+    def at(self, mu: float) -> Floats:
+        """The coefficients of the rows of J N⁻¹."""
+        return np.asarray(self.U @ (self.r / (self.eigenvalues + mu)))
 
 
 def _moduli(g: int) -> int:

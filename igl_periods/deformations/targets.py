@@ -37,6 +37,7 @@ def deform_to(
     *,
     basis: ArrayLike | None = None,
     smoothing: float = _SMOOTHING,
+    embedded: bool = False,
     degree: int = 1,
     keep_marking: bool = False,
     tolerance: float = _TOLERANCE,
@@ -57,6 +58,9 @@ def deform_to(
     smoothing : float
         The s of the norm; it has no unit.  0 is the mass norm, in which small changes are the
         nearest, and big ones make ripples.
+    embedded : bool
+        Make no step after which the surface passes through itself.  It may get stuck where another
+        smoothing would not.
     degree : int
         Of the trial functions.  From degree 2 on the exact matrix of the polyhedral surface comes
         as near to the target as ``certified_distance`` says.
@@ -78,7 +82,8 @@ def deform_to(
     NotASiegelPointError
         If the target is no point of the Siegel upper half-space.
     ValueError
-        If it has another genus, the basis another shape, or the tolerance is not positive.
+        If it has another genus, the basis another shape, the tolerance is not positive, or the
+        surface is to stay embedded and is not.
 
     Warns
     -----
@@ -87,7 +92,7 @@ def deform_to(
         ``verdict`` says why.
     """
     K = as_complex(V, F)
-    chart = VertexChart.of(K, basis, smoothing)
+    chart = VertexChart.of(K, basis, smoothing, embedded)
     return _deformed(chart, K, target, degree, keep_marking, tolerance, max_steps)
 
 
@@ -118,13 +123,14 @@ def deform_along(
     *,
     basis: ArrayLike | None = None,
     smoothing: float = _SMOOTHING,
+    embedded: bool = False,
     tolerance: float = _TOLERANCE,
 ) -> list[Deformation]:
     """Follow a path of period matrices with the vertices of a mesh.
 
     Parameters
     ----------
-    V, F, basis, smoothing, tolerance
+    V, F, basis, smoothing, embedded, tolerance
         As in :func:`deform_to`.
     path : (n, g, g) array-like
         In the marking of ``period_matrix(V, F)``, such as :func:`moduli_path` makes it.
@@ -139,7 +145,7 @@ def deform_along(
         As :func:`deform_to`.
     """
     K = as_complex(V, F)
-    chart = VertexChart.of(K, basis, smoothing)
+    chart = VertexChart.of(K, basis, smoothing, embedded)
     return _followed(chart, K, path, tolerance)
 
 

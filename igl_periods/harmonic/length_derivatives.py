@@ -92,8 +92,8 @@ def energy_derivatives(forms: GradientBlocks, mu: Complexes) -> Floats:
     """The derivatives −2 Re ∫ μ̄ G_i G_j for some distortions (c, m); (c, k, k)."""
     parts = []
     for faces, G in forms.gradient_blocks():
-        q, _, k = G.shape
-        points = G.reshape(-1, k)
+        q, n, k = G.shape
+        points = G.reshape(q * n, k)
         weights = np.tile(mu[:, faces].conj(), q)
         parts.append([(points.T @ (row[:, None] * points)).real for row in weights])
     return np.asarray(-2.0 * np.sum(parts, axis=0, dtype=np.float64))

@@ -88,8 +88,8 @@ def quadratic_scene(pm: PeriodMatrix, first: int, second: int) -> Scene:
         tubes=_strokes(sheet, K, product),
         legend=scale_legend(10.0**low, 10.0**high),
         caption=(
-            f"The quadratic differential ζ_{first} ζ_{second}: its horizontal directions, and its size from "
-            f"{10.0**low:.2g} (dark) to {10.0**high:.2g} (light), on a logarithmic scale."
+            f"The quadratic differential ζ_{first} ζ_{second}: its horizontal directions, and its "
+            f"size from {10.0**low:.2g} (dark) to {10.0**high:.2g} (light), on a logarithmic scale."
         ),
     )
 

@@ -124,7 +124,7 @@ class _MeanDerivative:
         J = standard_form(len(B) // 2)
         S = _point_transposed(self._point, _symmetric(W))
         H = self._damped(back.T @ S @ back)
-        return np.asarray(B.T @ ((inverse[:, None] * inverse) * (H - J.T @ H @ J)) @ B)
+        return _symmetric(B.T @ ((inverse[:, None] * inverse) * (H - J.T @ H @ J)) @ B)
 
 
 @dataclass(frozen=True, eq=False)
