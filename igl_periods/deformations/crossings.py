@@ -2,9 +2,9 @@ r"""Where a triangle mesh in space passes through itself.
 
 Two triangles without a common vertex meet iff a side of one passes through the other, or they
 touch.  The segment from p to q passes through the triangle a b c iff p and q lie on different sides
-of its plane, and the tetrahedra p q a b, p q b c and p q c a have the same orientation.  The test is
-made in floating point, without care for contacts: it is for surfaces that move, where a contact is
-crossed at the next step.
+of its plane, and the tetrahedra p q a b, p q b c and p q c a have the same orientation.  The test
+is made in floating point, without care for contacts: it is for surfaces that move, where a contact
+is crossed at the next step.
 """
 
 from __future__ import annotations

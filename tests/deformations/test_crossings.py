@@ -15,7 +15,8 @@ def test_two_tori(seed):
     """Beside each other, linked, and through each other; in any position."""
     turn = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
     found = []
-    for second in (V + [5.7, 0, 0], V[:, [0, 2, 1]] + [2.0, 0, 0], V + [1.0, 0.1, 0]):
+    beside, through, aside = np.array([[5.7, 0, 0], [1.0, 0.1, 0], [2.0, 0, 0]])
+    for second in (V + beside, V[:, [0, 2, 1]] + aside, V + through):
         both = np.concatenate([V, second]) @ turn
         found.append(passes_through_itself(both, np.concatenate([F, F + len(V)])))
     assert found == [False, False, True]
