@@ -16,8 +16,9 @@ page.  In reading order:
 ``topology``       K → integer cochains, cycles
 ``harmonic``       K, cochains → D, by linear functions
 ``elements``       K, cochains → D, by functions of high degree, conical at cone points
+``proofs``         the same energies in midpoint–radius arithmetic
 ``periods``        D → Π and its bound
-``enclosures``     proofs in ball arithmetic: Π to as many digits as are asked for
+``enclosures``     Π in balls, to as many digits as are asked for
 ``symplectic``     J, integer bases, the Williamson form: what D and Π have in common
 ``siegel``         Π → γ·Π reduced
 ``moduli``         Π₁, Π₂ → equivalence, symmetries, invariants
@@ -25,7 +26,7 @@ page.  In reading order:
 ``deformations``   Π* → a surface that has it
 ``differentials``  Π on the mesh → holomorphic forms, parametrization, Abel–Jacobi
 ``surfaces``       reference surfaces, their exact Π, and which of them a Π is
-``pictures``, ``reports``, ``cli``, ``batch``, ``distributed``
+``pictures``, ``reports``, ``cli``, ``batch``, ``distributed``, ``machine``
 =================  ============================================================================
 """
 

@@ -28,24 +28,23 @@ import time
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass, replace
-from functools import cache
 from importlib.metadata import version
 from os import PathLike
 from typing import Any
 
-from threadpoolctl import ThreadpoolController
-
 from igl_periods.complexes import DeltaComplex, as_complex
+from igl_periods.machine import one_thread
 from igl_periods.meshes import MeshReport, components_by_genus, read_surface, surface_of
 from igl_periods.moduli import (
     absolute_igusa_invariants,
     certified_j_invariant,
     vanishing_even_characteristics,
 )
+from igl_periods.options import checked_switch
 from igl_periods.periods import (
     PeriodMatrix,
     ToleranceWarning,
-    check_options,
+    checked_options,
     period_matrix,
     reduced_if_feasible,
 )
@@ -83,6 +82,7 @@ COLUMNS: dict[str, Any] = {
 }
 # The kind of error of a file on which workers died.
 DIED = "WorkerDied"
+_SWITCHES = ("repair", "double", "delaunay")
 _BYTES_AT_ONCE = 2**20
 
 
@@ -112,7 +112,12 @@ class BatchOptions:
     rigorous: bool = False
 
     def __post_init__(self) -> None:
-        check_options(self.weights, self.degree, self.tolerance, self.rigorous)
+        degree, tolerance = checked_options(
+            self.weights, self.degree, self.tolerance, self.rigorous
+        )
+        checked = {name: checked_switch(name, getattr(self, name)) for name in _SWITCHES}
+        for name, value in {**checked, "degree": degree, "tolerance": tolerance}.items():
+            object.__setattr__(self, name, value)
 
     def as_json(self) -> str:
         """All options, in one order."""
@@ -152,7 +157,7 @@ def rows_of(
     lap = _stopwatch()
     name = str(path) if name is None else name
     common = _common(name, path, options)
-    with _linear_algebra().limit(limits=1):
+    with one_thread():
         return [{**row, **common} for row in _computed(path, options, name, lap)]
 
 
@@ -273,11 +278,6 @@ def _stopwatch() -> Callable[[], float]:
         return last - before
 
     return lap
-
-
-@cache
-def _linear_algebra() -> ThreadpoolController:
-    return ThreadpoolController()
 
 
 _alone = threading.Lock()

@@ -29,6 +29,7 @@ barycentres, the double.  The surface stays what it is, and the classes go along
 ``weights``               cotangent and extrinsic weights, cone angles
 ``cochains``              closed cochains, their values along walks and sides
 ``marked_complex``        a complex with the cochains that it carries
+``diagonals``             the other diagonal of two triangles, and its rounding
 ``delaunay``              intrinsic Delaunay flips
 ``moved_lengths``         the same triangulation with other lengths or positions
 ``flip_derivatives``      new lengths by old ones
@@ -88,7 +89,7 @@ from .delaunay import Flips, cocircularity_allowance, delaunay_flips, intrinsic_
 from .moved_lengths import edge_directions, edge_lengths, with_edge_lengths, with_positions
 from .flip_derivatives import FlipDerivative, flip_derivatives, pull_back, push_forward
 from .midpoint_subdivision import split
-from .barycentre_insertion import insert_barycentres
+from .barycentre_insertion import insert_barycentres, is_divisible
 from .doubling import Involution, double, involution, lift
 
 __all__ = [
@@ -156,6 +157,7 @@ __all__ = [
     "push_forward",
     "split",
     "insert_barycentres",
+    "is_divisible",
     "double",
     "involution",
     "lift",

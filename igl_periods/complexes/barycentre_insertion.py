@@ -4,6 +4,10 @@ The surface is flat there, and no point of it moves.  A closed cochain passes to
 triangulation without a choice but for its values on the new edges: the edge from the new vertex to
 corner 0 gets the value 0, and closedness gives the others.
 
+The children of a needle of angle θ are caps, with angles of about π − θ; their lengths say
+something about them only while θ² is well above rounding.  :func:`is_divisible` tells.  What lies
+next to a needle can be divided all the same, and the flips that follow shorten its long sides.
+
 Delaunay flips are to follow.  On a region of equilateral triangles the two together are
 √3-subdivision (Kobbelt 2000).
 
@@ -29,13 +33,16 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array, hstack
 
 from igl_periods.arrays import Floats, Ints
+from igl_periods.errors import ComplexError
 
 from .cochains import check_cochains
 from .delta_complex import DeltaComplex
-from .triangles import length_sensitivity
+from .triangles import is_strict, length_sensitivity
 
 _SIDE = np.arange(3)
 _AFTER, _BEFORE = (_SIDE + 1) % 3, (_SIDE + 2) % 3
+# Children whose metric rounding changes by more than this times an ulp are too thin: 4/θ² = 1e8.
+_LARGEST_SENSITIVITY = 1e8
 
 
 def insert_barycentres(
@@ -64,9 +71,11 @@ def insert_barycentres(
     Raises
     ------
     ComplexError
-        If ``cochains`` does not have one column an edge.
+        If ``cochains`` does not have one column an edge, or the sides of a child would not fulfil
+        the strict triangle inequality in floating-point numbers (:func:`is_divisible`).
     """
     check_cochains(K, cochains)
+    _check_children(K, faces)
     r, m = len(faces), K.n_faces
     child = np.stack([faces, m + np.arange(r), m + r + np.arange(r)], axis=1)
     moved = np.arange(K.twin.size)
@@ -110,6 +119,38 @@ def insert_barycentres(
     distortion[child] += length_sensitivity(finer.lengths[child.ravel()]).reshape(-1, 3)
     finer = replace(finer, distortion=distortion)
     return finer, csr_array(hstack([cochains, _on_new_edges(K, cochains, faces)], format="csr"))
+
+
+def is_divisible(lengths: Floats) -> NDArray[np.bool_]:
+    """Whether floating-point lengths describe the three children of each triangle well; (r,).
+
+    Parameters
+    ----------
+    lengths : (r, 3) float
+    """
+    children = _children(lengths)
+    strict = is_strict(children)
+    good = strict.copy()
+    good[strict] = length_sensitivity(children[strict]) < _LARGEST_SENSITIVITY
+    return np.asarray(good.reshape(-1, 3).all(axis=1))
+
+
+def _check_children(K: DeltaComplex, faces: Ints) -> None:
+    degenerate = ~is_strict(_children(K.lengths[faces])).reshape(-1, 3).all(axis=1)
+    if degenerate.any():
+        face = int(faces[np.argmax(degenerate)])
+        raise ComplexError(
+            f"{np.count_nonzero(degenerate)} faces are too thin to be divided at their barycentres "
+            f"in double precision; the first is face {face}, with the sides "
+            f"{K.lengths[face].tolist()}. Leave such faces whole."
+        )
+
+
+def _children(lengths: Floats) -> Floats:
+    """Sides of the children of triangles, three rows for each; (3 r, 3)."""
+    distance = _barycentre_distances(lengths)
+    child = np.stack([lengths, distance[:, _BEFORE], distance[:, _AFTER]], axis=2)
+    return child.reshape(-1, 3)
 
 
 def _barycentre_distances(lengths: Floats) -> Floats:

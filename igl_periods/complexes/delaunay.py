@@ -11,6 +11,10 @@ The new diagonal joins two corners, so that a closed cochain takes on it the sum
 two sides of the quadrilateral.  In this way integer cochains, and with them the marking of the
 period matrix, pass exactly to the flipped triangulation, whatever multi-edges and loops it gets.
 
+The length of a new diagonal follows from those of the five edges around it, and its rounding goes
+on into all later ones.  Therefore lengths are extended numbers while edges are being flipped (of
+64 bits or more where the machine has them), and rounded at the end.
+
 Flips of edges that share no face commute.  Each round flips an independent set of bad edges at
 once, chosen at random but always the same.
 
@@ -24,6 +28,7 @@ Bobenko, Springborn, "A discrete Laplace–Beltrami operator for simplicial surf
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,14 +39,17 @@ from igl_periods.errors import ComplexError
 from igl_periods.run_log import progress
 
 from .delta_complex import DeltaComplex
+from .diagonals import other_diagonal
 from .gluings import next_corner
 from .half_edges import forward_half_edges
-from .triangles import cotangents, double_areas, is_strict, length_sensitivity
+from .triangles import cotangents, is_strict, length_sensitivity
 
 # Edges this close to cocircular are left alone: flipped by rounding, they would flip for ever.
 _TOLERANCE = 1e-12
 _EPS = float(np.finfo(np.float64).eps)
 _ULPS = 8 * _EPS
+# The rounding of extended numbers, in units of that of doubles.
+_FINER = float(np.finfo(np.longdouble).eps) / _EPS
 _MOST_ROUNDS = 100_000  # and as many as there are edges
 _COCHAINS_AT_ONCE = 32
 _EDGES_AT_ONCE = 8_192
@@ -127,12 +135,12 @@ def delaunay_flips(K: DeltaComplex) -> tuple[DeltaComplex, list[Flips]]:
         suspects = mesh.bad_edges(_distinct(K.n_edges, waiting, *(near for _, near in portions)))
     flipped = replace(
         K,
-        lengths=mesh.lengths.reshape(-1, 3),
+        lengths=mesh.lengths.reshape(-1, 3).astype(np.float64),
         twin=mesh.twin.reshape(-1, 3),
         edge=mesh.edge.reshape(-1, 3),
         sign=mesh.sign.reshape(-1, 3),
         corner_vertex=mesh.corner_vertex.reshape(-1, 3),
-        distortion=mesh.distortion,
+        distortion=mesh.distortion_when_rounded(),
         exact_lengths=None,
     )
     return flipped, rounds
@@ -179,21 +187,21 @@ def _carried(cochains: csr_array, rounds: list[Flips]) -> csr_array:
 class _FlippableMesh:
     """The arrays of a complex, flat by half-edge, while edges are being flipped."""
 
-    lengths: Floats
+    lengths: Floats  # extended numbers
     twin: Ints
     edge: Ints
     sign: NDArray[np.int8]
     corner_vertex: Ints
     cotangents: Floats
     half_edge: Ints  # of each edge, the half-edge that runs with it
-    distortion: Floats  # of each face, in units of the machine epsilon
+    distortion: Floats  # of each face, as in the complex
     slot: Ints  # scratch: where a half-edge moves to; the identity between rounds
     owner: Ints  # scratch: which edge claims a face
 
     @classmethod
     def of(cls, K: DeltaComplex, cot: Floats) -> _FlippableMesh:
         return cls(
-            lengths=K.lengths.flatten(),
+            lengths=cast(Floats, K.lengths.flatten().astype(np.longdouble)),
             twin=K.twin.flatten(),
             edge=K.edge.flatten(),
             sign=K.sign.flatten(),
@@ -260,11 +268,23 @@ class _FlippableMesh:
         self._distort(here // 3, there // 3, ulps)
         return flips, self.edge[new]
 
+    def distortion_when_rounded(self) -> Floats:
+        """The distortion of each face by the flips so far, and by rounding the lengths to double.
+
+        That is by 2⁻⁵³, an eighth of the unit; lengths that did not change are not rounded.
+        """
+        lengths = self.lengths.reshape(-1, 3)
+        rounded = lengths.astype(np.float64)
+        changed = np.flatnonzero(np.any(rounded != lengths, axis=1))
+        distortion = self.distortion.copy()
+        distortion[changed] += 0.125 * length_sensitivity(rounded[changed])
+        return distortion
+
     def _distort(self, here: Ints, there: Ints, ulps: Floats) -> None:
         """Both new faces inherit what was wrong with the old ones, and the rounded diagonal."""
         before = np.maximum(self.distortion[here], self.distortion[there])
         for faces in (here, there):
-            lengths = self.lengths.reshape(-1, 3)[faces]
+            lengths = self.lengths.reshape(-1, 3)[faces].astype(np.float64)
             self.distortion[faces] = before + ulps * length_sensitivity(lengths)
 
     def _flippable(self, edges: Ints) -> tuple[Ints, Ints, Floats, Floats]:
@@ -290,22 +310,10 @@ class _FlippableMesh:
         return edges[good], h[good], diagonal[good], ulps[good]
 
     def _diagonal(self, h: Ints, t: Ints) -> tuple[Floats, Floats]:
-        """Distance of p and q in the plane of both faces, and its error in ulps, about."""
-        base = self.lengths[h]
-        pa, pb = self.lengths[next_corner(h, 2)], self.lengths[next_corner(h, 1)]
-        qa, qb = self.lengths[next_corner(t, 1)], self.lengths[next_corner(t, 2)]
-        height = (
-            double_areas(np.stack([base, pa, pb], 1)) + double_areas(np.stack([base, qa, qb], 1))
-        ) / base
-        # Feet of the heights, measured from the nearer end of the base: that keeps digits where
-        # p and q lie close to it.
-        from_a = _foot(base, pa, pb) - _foot(base, qa, qb)
-        from_b = _foot(base, qb, qa) - _foot(base, pb, pa)
-        near_a = pa + qa < pb + qb
-        along = np.where(near_a, from_a, from_b)
-        diagonal = np.hypot(along, height)
-        # The feet are as long as the nearer sides at most, and their difference can cancel.
-        return diagonal, 1.0 + np.where(near_a, pa + qa, pb + qb) / diagonal
+        """Distance of p and q, and a bound of its relative error in units of 2⁻⁵⁰."""
+        sides = (h, next_corner(h, 2), next_corner(h, 1), next_corner(t, 1), next_corner(t, 2))
+        diagonal, error = other_diagonal(*(self.lengths[side] for side in sides))
+        return diagonal, (_FINER * error).astype(np.float64)
 
     def _move(self, old: Ints, new: Ints) -> None:
         """Move half-edges to new places, with all that belongs to them."""
@@ -355,8 +363,3 @@ def cocircularity_allowance(size: Floats) -> Floats:
         The sum of the absolute values of both cotangents.
     """
     return _TOLERANCE + _ULPS * size
-
-
-def _foot(base: Floats, near: Floats, far: Floats) -> Floats:
-    """Distance along the base from its near end to the foot of the height."""
-    return 0.5 * (base + (near - far) * ((near + far) / base))

@@ -40,7 +40,7 @@ import igl
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from igl_periods.arrays import Floats, Ints
+from igl_periods.arrays import Floats, Ints, ReadOnlyArrays
 from igl_periods.display import counted, facts_html
 from igl_periods.errors import MeshError
 
@@ -73,7 +73,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class DeltaComplex:
+class DeltaComplex(ReadOnlyArrays):
     """Euclidean triangles glued along their sides.
 
     Build one with :meth:`from_mesh`, :meth:`from_lengths`, :meth:`from_gluing` or
@@ -104,7 +104,7 @@ class DeltaComplex:
         Length that was added to every side to make all triangle inequalities strict.
     distortion : (m,) float or None
         How much rounding may have changed the metric of each face since the complex was given,
-        relative to it and in units of the machine epsilon; None where nothing was changed.
+        relative to it and in units of 2⁻⁵⁰; None where nothing was changed.
     exact_lengths : function or None
         The lengths of the edges as balls, for a precision in bits, where the doubles in ``lengths``
         are rounded (:mod:`igl_periods.complexes.exact_lengths`); what is proved is proved about
@@ -123,10 +123,6 @@ class DeltaComplex:
     mollification: float = 0.0
     distortion: Floats | None = None
     exact_lengths: ExactLengths | None = None
-
-    def __post_init__(self) -> None:
-        for array in (self.lengths, self.twin, self.edge, self.sign, self.corner_vertex):
-            array.flags.writeable = False
 
     def __repr__(self) -> str:
         sizes = [

@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
-from igl_periods.arrays import Ints
+from igl_periods.arrays import Ints, ReadOnlyArrays
 from igl_periods.display import arrays_repr
 from igl_periods.errors import ComplexError
 
@@ -37,7 +37,7 @@ _MIRROR = np.array([0, 2, 1])
 
 
 @dataclass(frozen=True, eq=False)
-class Involution:
+class Involution(ReadOnlyArrays):
     """The isometry σ of a double that exchanges the two sheets.
 
     Attributes

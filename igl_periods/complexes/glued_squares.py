@@ -71,7 +71,7 @@ def _checked_subdivision(n: int) -> int:
         number = operator.index(n)
     except TypeError:
         number = 0
-    if number < 1:
+    if number < 1 or isinstance(n, bool):
         raise ComplexError(f"n = {n!r}: each square is divided into n x n squares, n >= 1.")
     return number
 

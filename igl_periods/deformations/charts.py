@@ -45,6 +45,7 @@ from igl_periods.harmonic import (
     solve,
     spread_to_vertices,
 )
+from igl_periods.options import checked_number, checked_switch
 from igl_periods.periods import Gradient
 
 from .crossings import passes_through_itself
@@ -93,9 +94,10 @@ class VertexChart:
             If there are no positions.
         """
         edge_directions(K)
+        smoothing = checked_number("smoothing", smoothing)
         if not 0.0 <= smoothing < np.inf:
             raise ValueError(f"smoothing = {smoothing}: it is a number from 0 on.")
-        if embedded and _meets_itself(K):
+        if checked_switch("embedded", embedded) and _meets_itself(K):
             raise ValueError("the surface passes through itself: leave embedded=True away.")
         if functions is None:
             return cls(K, smoothing, None, embedded)

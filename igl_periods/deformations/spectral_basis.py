@@ -16,6 +16,7 @@ from scipy.sparse.linalg import eigsh
 from igl_periods.arrays import Floats
 from igl_periods.complexes import DeltaComplex, as_complex, cotan_weights, intrinsic_delaunay
 from igl_periods.harmonic import face_areas, laplacian, spread_to_vertices
+from igl_periods.options import checked_integer
 
 _SHIFT = -1e-6
 
@@ -37,7 +38,7 @@ def smooth_functions(
     ValueError
         If there are not so many.
     """
-    K = as_complex(surface, F)
+    K, count = as_complex(surface, F), checked_integer("count", count)
     if not 1 <= count < K.n_vertices:
         raise ValueError(
             f"count = {count}: of {K.n_vertices} vertices 1 to {K.n_vertices - 1} functions."

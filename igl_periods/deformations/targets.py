@@ -14,7 +14,8 @@ from igl_periods.arrays import Complexes, Ints
 from igl_periods.complexes import DeltaComplex, MarkedComplex, as_complex
 from igl_periods.errors import ComplexError
 from igl_periods.moduli import nearest_marking
-from igl_periods.periods import PeriodMatrix, certified_period_matrix, solve_forms
+from igl_periods.options import checked_integer, checked_number, checked_switch
+from igl_periods.periods import PeriodMatrix, certified_period_matrix, checked_options, solve_forms
 from igl_periods.run_log import logger, stage
 from igl_periods.siegel import check_siegel_point, siegel_distance, siegel_transform
 from igl_periods.topology import mark
@@ -165,11 +166,13 @@ def _deformed(
     tolerance: float,
     max_steps: int,
 ) -> Deformation:
-    given = _marked(K, tolerance)
+    degree, tolerance = checked_options("intrinsic", degree, None)[0], _checked_tolerance(tolerance)
+    max_steps = checked_integer("max_steps", max_steps)
+    given = _marked(K)
     point = _checked_target(target, given)
     start = _computed(given, 1, K)
     gamma = np.eye(2 * start.genus, dtype=np.int64)
-    if not keep_marking:
+    if not checked_switch("keep_marking", keep_marking):
         point, gamma = _nearest(point, start)
     x = chart.start()
     degrees = (
@@ -188,7 +191,8 @@ def _deformed(
 def _followed(
     chart: Chart, K: DeltaComplex, path: Sequence[ArrayLike] | ArrayLike, tolerance: float
 ) -> list[Deformation]:
-    given = _marked(K, tolerance)
+    tolerance = _checked_tolerance(tolerance)
+    given = _marked(K)
     points = [_checked_target(point, given) for point in np.asarray(path)]
     x, results = chart.start(), list[Deformation]()
     compute = partial(_computed, given, 1)
@@ -210,9 +214,14 @@ def _computed(given: MarkedComplex, degree: int, K: DeltaComplex) -> PeriodMatri
     return certified_period_matrix(moved, raw, allowance, forms)
 
 
-def _marked(K: DeltaComplex, tolerance: float) -> MarkedComplex:
-    if not tolerance > 0.0:
+def _checked_tolerance(tolerance: float) -> float:
+    number = checked_number("tolerance", tolerance)
+    if not number > 0.0:
         raise ValueError(f"tolerance = {tolerance}: a distance that can be reached is positive.")
+    return number
+
+
+def _marked(K: DeltaComplex) -> MarkedComplex:
     given = mark(K)
     if given.rank == 0:
         raise ComplexError("a surface of genus 0 has no moduli: there is nothing to reach.")

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from igl_periods.arrays import Complexes, Floats
 from igl_periods.harmonic import face_areas, linear_parts
-from igl_periods.periods import PeriodMatrix
+from igl_periods.periods import PeriodMatrix, check_period_matrix
 from igl_periods.run_log import stage
 
 from .normalised import normalised_differentials
@@ -36,6 +36,7 @@ def most_even_form(pm: PeriodMatrix) -> Complexes:
         If the surface is a sphere, or its triangles are so thin that their Laplacian is singular
         to rounding.
     """
+    check_period_matrix(pm)
     checked_coefficients(pm, np.ones(pm.genus))
     densities = _Densities.of(pm)
     with stage("most even form"):

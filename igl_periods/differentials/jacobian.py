@@ -17,16 +17,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from igl_periods.arrays import Complexes, Floats
+from igl_periods.arrays import Complexes, Floats, ReadOnlyArrays
 from igl_periods.complexes import along_sides, primitive
 from igl_periods.display import facts_html
-from igl_periods.periods import PeriodMatrix
+from igl_periods.options import checked_integer
+from igl_periods.periods import PeriodMatrix, check_period_matrix
 
 from .normalised import harmonic_forms_on_edges
 
 
 @dataclass(frozen=True, eq=False)
-class AbelJacobi:
+class AbelJacobi(ReadOnlyArrays):
     """The Abel–Jacobi map of the vertices.
 
     Attributes
@@ -64,7 +65,8 @@ def abel_jacobi(pm: PeriodMatrix, base: int = 0) -> AbelJacobi:
     ValueError
         If there is no such vertex.
     """
-    K = pm.complex
+    check_period_matrix(pm)
+    K, base = pm.complex, checked_integer("base", base)
     if not 0 <= base < K.n_vertices:
         raise ValueError(f"there is no vertex {base}: there are {K.n_vertices}, counted from 0.")
     sides = along_sides(K, harmonic_forms_on_edges(pm))

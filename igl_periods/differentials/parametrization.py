@@ -30,12 +30,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from igl_periods.arrays import Bools, Complexes, Floats, Ints
-from igl_periods.complexes import DeltaComplex, along_sides, primitive
+from igl_periods.arrays import Bools, Complexes, Floats, Ints, ReadOnlyArrays
+from igl_periods.complexes import DeltaComplex, along_sides, checked_array, primitive
 from igl_periods.display import facts_html
 from igl_periods.errors import ComplexError
 from igl_periods.harmonic import linear_parts
-from igl_periods.periods import PeriodMatrix
+from igl_periods.options import in_words
+from igl_periods.periods import PeriodMatrix, check_period_matrix
 from igl_periods.run_log import stage
 from igl_periods.topology import cut_to_disk
 
@@ -43,7 +44,7 @@ from .normalised import normalised_differentials
 
 
 @dataclass(frozen=True, eq=False)
-class Parametrization:
+class Parametrization(ReadOnlyArrays):
     """A surface cut to a disk and mapped to the plane by z = ∫ζ.
 
     Attributes
@@ -184,9 +185,13 @@ def parametrize(pm: PeriodMatrix, coefficients: ArrayLike) -> Parametrization:
 
 def checked_coefficients(pm: PeriodMatrix, coefficients: ArrayLike) -> Complexes:
     """Coefficients as a complex array of shape (g,), finite, not all 0, or an error."""
+    check_period_matrix(pm)
     if pm.genus == 0:
         raise ComplexError("the surface is a sphere (genus 0): it has no holomorphic differential.")
-    s = np.atleast_1d(np.asarray(coefficients, dtype=np.complex128))
+    given = checked_array(coefficients, "coefficients", ValueError)
+    if given.dtype.kind not in "iufc":
+        raise ValueError(f"coefficients must be complex numbers, not {in_words(coefficients)}.")
+    s = np.atleast_1d(given.astype(np.complex128))
     if s.shape != (pm.genus,) or not np.isfinite(s).all() or not s.any():
         raise ValueError(
             f"coefficients must be {pm.genus} finite numbers, one for each ζ_k and not all 0, not "

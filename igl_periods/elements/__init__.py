@@ -17,7 +17,9 @@ upper bound of the exact one, and the bound of the period matrix falls exponenti
 ``placement``            which face gets which element; faces with two cone points are divided
 ``condensation``         stiffness of many faces at once, bubbles eliminated
 ``trace_system``         the sparse system for the traces on edges
-``least_energy``         the forms, and their energies from gradients
+``trial_forms``          the forms, and their coefficients on each face
+``descent``              to the least energy where rounding keeps the solver away from it
+``least_energy``         the forms of least energy, and their energies from gradients
 ``point_values``         values, gradients and integrals of the forms anywhere
 ``gradient_blocks``      gradients in the charts of faces, for derivatives
 =======================  ======================================================================
@@ -31,8 +33,8 @@ Babuška, Suri, "The p and h-p versions of the finite element method" (1994).
 from .reference_elements import ReferenceElement
 from .placement import Elements, separate_cones
 from .trace_system import count_unknowns, jumps, unknowns
+from .trial_forms import HighOrderForms
 from .least_energy import (
-    HighOrderForms,
     dirichlet_matrix,
     energy_excess,
     high_order_forms,

@@ -20,12 +20,11 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from functools import cache
 
 import numpy as np
-from threadpoolctl import ThreadpoolController
 
 from igl_periods.arrays import Floats, Ints
+from igl_periods.machine import one_thread
 
 from .placement import Elements
 
@@ -43,14 +42,9 @@ def condense(elements: Elements) -> Iterator[tuple[Ints, Floats, Floats]]:
     E : (b, n - 3p, 3p) float
     """
     blocks = list(elements.blocks(elements.reference.n_functions**2))
-    with _blas().limit(limits=1), ThreadPoolExecutor(os.cpu_count()) as pool:
+    with one_thread(), ThreadPoolExecutor(os.cpu_count()) as pool:
         for block, (S, E) in zip(blocks, pool.map(lambda b: condense_block(elements, b), blocks)):
             yield block, S, E
-
-
-@cache
-def _blas() -> ThreadpoolController:
-    return ThreadpoolController()
 
 
 def condense_block(elements: Elements, block: Ints) -> tuple[Floats, Floats]:
@@ -101,3 +95,24 @@ def scaled_gradients(elements: Elements, block: Ints, coefficients: Floats) -> I
     across = (points.nodes[:, None, None] - foot) * u_s
     yield np.sqrt(kappa / aspect) * u_tau - across / np.sqrt(kappa * aspect)
     yield np.sqrt(aspect / kappa) * u_s
+
+
+def transposed_gradients(elements: Elements, block: Ints, along: Floats, down: Floats) -> Floats:
+    """The transpose of :func:`scaled_gradients`: from the points back to coefficients.
+
+    Parameters
+    ----------
+    along, down : (q, b, k) float
+
+    Returns
+    -------
+    (n, b, k) float
+    """
+    q, b, k = along.shape
+    points = elements.reference.quadrature
+    aspect, foot, kappa = (a[block, None] for a in (elements.aspect, elements.foot, elements.kappa))
+    tilt = (points.nodes[:, None, None] - foot) / np.sqrt(kappa * aspect)
+    by_tau = np.sqrt(kappa / aspect) * along
+    by_s = np.sqrt(aspect / kappa) * down - tilt * along
+    flat = points.by_tau.T @ by_tau.reshape(q, b * k) + points.by_s.T @ by_s.reshape(q, b * k)
+    return flat.reshape(-1, b, k)

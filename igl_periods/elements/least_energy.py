@@ -24,47 +24,20 @@ Babuška, Suri, "The p and h-p versions of the finite element method" (1994).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
 
 import numpy as np
 from scipy.sparse import csr_array
 
-from igl_periods.arrays import Floats, Ints
+from igl_periods.arrays import Floats
 from igl_periods.complexes import DeltaComplex
-from igl_periods.harmonic import geometric_allowance
+from igl_periods.harmonic import geometric_allowance, sum_in_groups
 
 from .condensation import scaled_gradients
+from .descent import descended
 from .placement import Elements, choose_elements, separate_cones
-from .trace_system import condensed_system, jumps, least_traces, unknowns
-
-
-@dataclass(frozen=True, eq=False)
-class HighOrderForms:
-    """Closed forms c + df with f of degree p on every face.
-
-    Attributes
-    ----------
-    complex : DeltaComplex
-        The complex that carries them: the one handed over, or its refinement.
-    cochains : (k, n_edges) sparse int
-        Their cohomology classes c.
-    degree : int
-        The degree p.
-    elements : tuple of Elements
-        The flat elements, and the conical ones, where there are any.
-    extensions : tuple of (m, n - 3 p, 3 p) float
-        For each of ``elements``: coefficients of bubbles in terms of those of traces.
-    traces : (n_vertices + (p - 1) n_edges, k) float
-        The functions f: their values at vertices, then their coefficients of ℓ_2 … ℓ_p along
-        each edge, in its direction.
-    """
-
-    complex: DeltaComplex
-    cochains: csr_array
-    degree: int
-    elements: tuple[Elements, ...]
-    extensions: tuple[Floats, ...]
-    traces: Floats
+from .trace_system import condensed_system, factored_system, least_traces
+from .trial_forms import HighOrderForms, coefficients_on
 
 
 def high_order_forms(K: DeltaComplex, cochains: csr_array, degree: int) -> HighOrderForms:
@@ -114,7 +87,12 @@ def least_energy_forms(
     """
     system = condensed_system(K, cochains, elements)
     degree = elements[0].reference.degree
-    return HighOrderForms(K, cochains, degree, elements, system.extensions, least_traces(system))
+    if cochains.shape[0] == 0:
+        return HighOrderForms(K, cochains, degree, elements, system.extensions, system.load)
+    factor = factored_system(system)
+    traces = least_traces(system, factor)
+    forms = HighOrderForms(K, cochains, degree, elements, system.extensions, traces)
+    return descended(forms, factor)
 
 
 def dirichlet_matrix(forms: HighOrderForms, face_weights: Floats | None = None) -> Floats:
@@ -130,21 +108,27 @@ def dirichlet_matrix(forms: HighOrderForms, face_weights: Floats | None = None) 
         One weight for each face of ``forms.complex``.
     """
     k = forms.cochains.shape[0]
-    D = np.zeros((k, k))
     if k == 0:
-        return D
+        return np.zeros((0, 0))
+    parts = [
+        (elements, extension, block)
+        for elements, extension in zip(forms.elements, forms.extensions, strict=True)
+        for block in elements.blocks(k * elements.reference.quadrature.nodes.size)
+    ]
     by_edge = forms.cochains.T.tocsr()
-    for elements, extension in zip(forms.elements, forms.extensions, strict=True):
-        for block in elements.blocks(k * elements.reference.quadrature.nodes.size):
+
+    def terms() -> Iterator[Floats]:
+        for elements, extension, block in parts:
             if face_weights is not None:
                 block = block[face_weights[elements.face[block]] > 0.0]
-            u = _coefficients(forms, by_edge, elements, extension, block)
+            u = coefficients_on(forms, by_edge, elements, extension, block)
             for X in scaled_gradients(elements, block, u):
                 if face_weights is not None:
                     X *= np.sqrt(face_weights[elements.face[block]])[:, None]
                 X = X.reshape(-1, k)
-                D += X.T @ X
-    return D
+                yield X.T @ X
+
+    return sum_in_groups(terms(), 2 * len(parts), (k, k))
 
 
 def energy_excess(forms: HighOrderForms, pairs: Floats) -> Floats:
@@ -166,7 +150,7 @@ def energy_excess(forms: HighOrderForms, pairs: Floats) -> Floats:
     by_edge = forms.cochains.T.tocsr()
     for elements, extension in zip(forms.elements, forms.extensions, strict=True):
         for block in elements.blocks(4 * g * elements.reference.quadrature.nodes.size):
-            u = _coefficients(forms, by_edge, elements, extension, block) @ combine
+            u = coefficients_on(forms, by_edge, elements, extension, block) @ combine
             along, down = scaled_gradients(elements, block, u)
             for one, other in (
                 (along[..., :g], -down[..., g:]),
@@ -196,30 +180,3 @@ def rounding_allowance(forms: HighOrderForms, D: Floats) -> float:
         Their Dirichlet matrix.  A later change of basis has an allowance of its own.
     """
     return geometric_allowance(forms.complex, D, lambda weights: dirichlet_matrix(forms, weights))
-
-
-def coefficients(forms: HighOrderForms, elements: Elements, block: Ints) -> Floats:
-    """Coefficients of potentials of the forms on some elements, 0 at the apex; (n, b, k) float.
-
-    Parameters
-    ----------
-    elements : Elements
-        One of ``forms.elements``.
-    block : (b,) int
-        Which of them.
-    """
-    extension = forms.extensions[forms.elements.index(elements)]
-    return _coefficients(forms, forms.cochains.T.tocsr(), elements, extension, block)
-
-
-def _coefficients(
-    forms: HighOrderForms, by_edge: csr_array, elements: Elements, extension: Floats, block: Ints
-) -> Floats:
-    K = forms.complex
-    index, sign = unknowns(K, elements, block)
-    u = sign[:, :, None] * forms.traces[index]
-    # Nearby values subtract without error: gradients stay accurate where f is large.
-    u[:, 1:3] -= u[:, :1]
-    u[:, 0] = 0.0
-    u[:, 1:3] += jumps(K, by_edge, elements, block)
-    return np.concatenate([u, extension[block] @ u], axis=1).transpose(1, 0, 2)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from igl_periods.arrays import Floats, Ints
-from igl_periods.complexes import DeltaComplex, cone_angles, cotangents, split
+from igl_periods.complexes import DeltaComplex, cone_angles, cotangents, double_areas, split
 
 from .reference_elements import ReferenceElement, conical_element, flat_element
 
@@ -60,15 +60,16 @@ def shaped_elements(
     K: DeltaComplex, reference: ReferenceElement, face: Ints, apex: Ints, kappa: Floats
 ) -> Elements:
     """Elements on the given faces, with the shapes that the lengths of the sides determine."""
-    cot = cotangents(K.lengths[face])
-    row = np.arange(face.size)
-    cot_a, cot_b = cot[row, (apex + 1) % 3], cot[row, (apex + 2) % 3]
-    aspect = 1.0 / (cot_a + cot_b)
+    lengths, row = K.lengths[face], np.arange(face.size)
+    # Not 1 / (cot a + cot b), which cancels where the angle at a or b is near π.
+    aspect = double_areas(lengths) / lengths[row, apex] ** 2
+    cot_a = cotangents(lengths)[row, (apex + 1) % 3]
     return Elements(reference, face, apex, aspect, aspect * cot_a, kappa)
 
 
 # Vertices whose total angle is 2π up to this, relatively, count as flat.
 _FLATNESS = 1e-9
+_EPS = float(np.finfo(np.float64).eps)
 
 
 def separate_cones(K: DeltaComplex, cochains: csr_array) -> tuple[DeltaComplex, csr_array]:
@@ -78,8 +79,22 @@ def separate_cones(K: DeltaComplex, cochains: csr_array) -> tuple[DeltaComplex, 
 
 
 def is_cone(K: DeltaComplex) -> NDArray[np.bool_]:
-    """Whether the total angle at each vertex differs from 2π; (n_vertices,) bool."""
-    return np.abs(cone_angles(K) / (2.0 * np.pi) - 1.0) >= _FLATNESS
+    """Whether the total angle at each vertex differs from 2π beyond doubt; (n_vertices,) bool."""
+    curvature = np.abs(cone_angles(K) - 2.0 * np.pi)
+    return (curvature >= 2.0 * np.pi * _FLATNESS) & (curvature > _doubt(K))
+
+
+def _doubt(K: DeltaComplex) -> Floats:
+    """What rounding of lengths can do to the total angle at each vertex; (n_vertices,).
+
+    The angle α opposite side a changes by a (δa − cos γ δb − cos β δc) / 2A.  A needle as wide as
+    many ulps of its length has angles of a few digits, at vertices that may well be flat.
+    """
+    perimeter = K.lengths.sum(axis=1, keepdims=True)
+    doubt = K.lengths * perimeter / double_areas(K.lengths)[:, None]
+    if K.distortion is not None:
+        doubt += K.distortion[:, None]
+    return np.asarray(_EPS * np.bincount(K.corner_vertex.ravel(), doubt.ravel(), K.n_vertices))
 
 
 def choose_elements(K: DeltaComplex, degree: int) -> tuple[Elements, ...]:

@@ -20,8 +20,8 @@ from numpy.typing import ArrayLike
 from igl_periods.arrays import Complexes, Floats, Ints
 from igl_periods.complexes import DeltaComplex, angles, edge_ends
 
-from .least_energy import HighOrderForms, coefficients
 from .placement import Elements
+from .trial_forms import HighOrderForms, coefficients
 
 _POINTS_AT_ONCE = 4096
 

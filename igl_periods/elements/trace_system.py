@@ -25,10 +25,13 @@ from scipy.sparse import csc_matrix, csr_array
 from igl_periods.arrays import Floats, Ints
 from igl_periods.complexes import DeltaComplex
 from igl_periods.errors import ComplexError, NotPositiveDefiniteError
-from igl_periods.harmonic import factor, solve
+from igl_periods.harmonic import CholeskyFactor, factor, solve
 
 from .condensation import condense
 from .placement import Elements
+
+# By how much the diagonal is raised where the matrix is not positive definite, one after another.
+_RAISED = (0.0, 1e-13, 1e-11, 1e-9)
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,21 +85,48 @@ def condensed_system(
     return CondensedSystem(csc_matrix(entries, shape=(n - 1, n - 1)), load, extensions)
 
 
-def least_traces(system: CondensedSystem) -> Floats:
-    """The traces of least energy, 0 at vertex 0; (n, k) float.
+def factored_system(system: CondensedSystem) -> CholeskyFactor:
+    """The Cholesky factor of the matrix, or of one nearby that is positive definite.
+
+    Rounding on extremely thin triangles can leave a matrix that is not.  Then its diagonal is
+    raised by a small part of itself; the solution is only nearly the least
+    (:mod:`igl_periods.elements.descent`).
 
     Raises
     ------
     ComplexError
-        If the matrix is not positive definite, which rounding on extremely thin triangles can do.
+        If that does not help.
+    """
+    for part in _RAISED:
+        try:
+            return factor(_raised(system.matrix, part) if part else system.matrix)
+        except NotPositiveDefiniteError as error:
+            failure = error
+    raise _too_thin() from failure
+
+
+def _raised(matrix: csc_matrix, part: float) -> csc_matrix:
+    raised = matrix.copy()
+    diagonal = raised.diagonal()
+    raised.setdiag(diagonal + part * np.abs(diagonal))
+    return raised
+
+
+def least_traces(system: CondensedSystem, factor: CholeskyFactor | None = None) -> Floats:
+    """The traces of least energy, 0 at vertex 0; (n, k) float.
+
+    Parameters
+    ----------
+    factor : CholeskyFactor, optional
+        :func:`factored_system` of the system, if it is at hand.
+
+    Raises
+    ------
+    ComplexError
+        As :func:`factored_system`.
     """
     traces = np.zeros_like(system.load)
-    if traces.shape[1] == 0:
-        return traces
-    try:
-        solve(factor(system.matrix), system.load[1:], out=traces[1:])
-    except NotPositiveDefiniteError as error:
-        raise _too_thin() from error
+    solve(factored_system(system) if factor is None else factor, system.load[1:], out=traces[1:])
     return traces
 
 

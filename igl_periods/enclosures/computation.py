@@ -25,7 +25,7 @@ from scipy.sparse import csr_array
 from igl_periods.arrays import Ints
 from igl_periods.complexes import DeltaComplex, ExactLengths
 from igl_periods.errors import ComplexError, MemoryLimitError
-from igl_periods.memory import available_memory
+from igl_periods.machine import available_memory
 from igl_periods.periods import ToleranceWarning
 from igl_periods.run_log import logger, stage
 from igl_periods.topology import cochains_and_basis

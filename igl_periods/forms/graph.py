@@ -43,7 +43,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from igl_periods.arrays import Floats, Ints
+from igl_periods.arrays import Floats, Ints, ReadOnlyArrays
 from igl_periods.complexes import (
     DeltaComplex,
     check_surface,
@@ -63,7 +63,7 @@ from igl_periods.errors import ComplexError
 
 
 @dataclass(frozen=True, eq=False)
-class DoubleGraph:
+class DoubleGraph(ReadOnlyArrays):
     """The double graph of a closed, oriented surface; made by :func:`double_graph`.
 
     Attributes

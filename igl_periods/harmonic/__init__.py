@@ -18,6 +18,7 @@ face: a Gram matrix of explicit closed forms.  So :math:`D \ge D_{exact}` whatev
 ``cholmod``           sparse Cholesky factors, and solutions for many right-hand sides
 ``potentials``        the functions f that make c + df harmonic
 ``linear_forms``      gradients on blocks of faces, and sums of their products
+``grouped_sums``      sums of many terms, with little rounding
 ``energies``          D, with few functions held at a time
 ``harmonic_cochains`` harmonic forms as values on edges
 ``constant_forms``    forms that are constant on every triangle
@@ -35,6 +36,7 @@ Chen, Davis, Hager, Rajamanickam, "Algorithm 887: CHOLMOD" (2008).
 from .laplace_matrix import laplacian, outflow
 from .cholmod import CholeskyFactor, factor, solve
 from .potentials import factored, factored_laplacian, harmonic_potentials, solutions
+from .grouped_sums import sum_in_groups
 from .energies import (
     dirichlet_matrix,
     harmonic_energies,
@@ -82,6 +84,7 @@ __all__ = [
     "factored",
     "solutions",
     "harmonic_potentials",
+    "sum_in_groups",
     "dirichlet_matrix",
     "harmonic_energies",
     "harmonic_problem",

@@ -20,7 +20,7 @@ from sksparse.cholmod import CholmodNotPositiveDefiniteError, Factor, analyze
 
 from igl_periods.arrays import Floats
 from igl_periods.errors import NotPositiveDefiniteError
-from igl_periods.memory import release_freed_memory
+from igl_periods.machine import release_freed_memory, without_lost_threads
 from igl_periods.run_log import progress
 
 _SOLVES_AT_ONCE = 32
@@ -51,12 +51,13 @@ def factor(lower: csc_matrix) -> CholeskyFactor:
     tidy()
     # Supernodal is L Lᵀ, which fails on matrices that are not positive definite; the simplicial
     # L D Lᵀ would go on.
-    symbolic = analyze(lower, mode="supernodal", ordering_method="amd")
-    tidy()
-    try:
-        symbolic.cholesky_inplace(lower)
-    except CholmodNotPositiveDefiniteError as error:
-        raise NotPositiveDefiniteError("the matrix is not positive definite.") from error
+    with without_lost_threads():
+        symbolic = analyze(lower, mode="supernodal", ordering_method="amd")
+        tidy()
+        try:
+            symbolic.cholesky_inplace(lower)
+        except CholmodNotPositiveDefiniteError as error:
+            raise NotPositiveDefiniteError("the matrix is not positive definite.") from error
     return CholeskyFactor(n, symbolic)
 
 
@@ -70,7 +71,7 @@ def solve(factor: CholeskyFactor, load: Floats | csc_array, out: Floats | None =
         progress("equations", start, k)
         columns = slice(start, min(start + _SOLVES_AT_ONCE, k))
         part = load[:, columns]
-        solution[:, columns] = factor._factor(
-            part if isinstance(part, np.ndarray) else part.toarray(order="F")
-        )
+        dense = part if isinstance(part, np.ndarray) else part.toarray(order="F")
+        with without_lost_threads():
+            solution[:, columns] = factor._factor(dense)
     return solution

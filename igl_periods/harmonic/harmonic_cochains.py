@@ -14,6 +14,7 @@ from scipy.sparse import csr_array
 from igl_periods.arrays import Floats
 from igl_periods.complexes import DeltaComplex, cotan_weights, edge_ends, of_a_surface
 from igl_periods.errors import ComplexError
+from igl_periods.options import checked_integer, in_words
 from igl_periods.symplectic import standard_form
 from igl_periods.topology import cohomology_basis, pairing
 
@@ -78,6 +79,7 @@ def harmonic_form_blocks(
     ComplexError
         As :func:`harmonic_forms`.
     """
+    rows = checked_integer("rows", rows)
     if rows < 1:
         raise ValueError(f"rows = {rows}: a block has 1 row at least.")
     return _harmonic_blocks(K, cotan_weights(K), checked_basis(K, cocycles), rows)
@@ -129,6 +131,8 @@ def checked_basis(K: DeltaComplex, cocycles: csr_array | None) -> csr_array:
     if cocycles is None:
         return cohomology_basis(K)
     expected = (2 * K.genus, K.n_edges)
+    if getattr(cocycles, "shape", None) is None:
+        raise ComplexError(f"cocycles must be a sparse matrix, not {in_words(cocycles)}.")
     if cocycles.shape != expected:
         raise ComplexError(
             f"cocycles must have shape {expected}, a row for each class and a column for each "

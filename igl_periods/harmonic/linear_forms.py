@@ -18,7 +18,6 @@ A cochain of a tree and a cotree is 0 on nearly all edges.  Its values are kept 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -30,6 +29,8 @@ from scipy.sparse import csr_array
 from igl_periods.arrays import Floats, Ints
 from igl_periods.complexes import DeltaComplex, apexes, index_type
 from igl_periods.run_log import progress
+
+from .grouped_sums import sum_in_groups
 
 # Faces handled at once: few enough for the cache, enough for matrix products.
 _FEWEST_AT_ONCE = 512
@@ -130,20 +131,15 @@ def mutual_energies(one: LinearForms, two: LinearForms) -> Floats:
 
 
 def _summed(on_block: Callable[[slice], Floats], D: Floats, n_faces: int, n_forms: int) -> Floats:
-    """The sum of energies over all blocks, added to D in groups.
-
-    The rounding of a sum grows with the number of terms that are added one after the other: with
-    N blocks in groups of √N there are 2 √N of them.
-    """
+    """D and the sum of energies over all blocks."""
     portions = list(blocks(n_faces, n_forms))
-    group = math.isqrt(len(portions)) + 1
-    for start in range(0, len(portions), group):
-        part = np.zeros_like(D)
-        for block in portions[start : start + group]:
+
+    def terms() -> Iterator[Floats]:
+        for block in portions:
             progress("energies on faces", block.start, n_faces)
-            part += on_block(block)
-        D += part
-    return D
+            yield on_block(block)
+
+    return D + sum_in_groups(terms(), len(portions), D.shape)
 
 
 @dataclass(frozen=True, eq=False)

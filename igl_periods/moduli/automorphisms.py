@@ -50,11 +50,21 @@ class SymplecticGroup(Sequence[Ints]):
         All integer σ with σ J σᵀ = −J and (aΠ̄ + b)(cΠ̄ + d)⁻¹ = Π up to the tolerance.
     hyperelliptic : bool or None
         Whether the surface is hyperelliptic; None if that was not decided (beyond genus 3).
+
+    Raises
+    ------
+    RuntimeError
+        If a search did not come to its end: then this is not the group.
     """
 
     elements: Isomorphisms
     reversing: Isomorphisms
     hyperelliptic: bool | None
+
+    def __post_init__(self) -> None:
+        for found in (self.elements, self.reversing):
+            if not found.complete:
+                raise EnumerationLimitError(found.gave_up or "the search was stopped at its limit")
 
     def __repr__(self) -> str:
         return f"SymplecticGroup({', '.join(f'{name} {value}' for name, value in self._facts())})"
@@ -150,8 +160,6 @@ def symplectic_automorphism_group(Pi: ArrayLike, tolerance: float | None = None)
     """
     elements = symplectic_isomorphisms(Pi, Pi, tolerance)
     reversing = symplectic_isomorphisms(Pi, Pi, tolerance, reversing=True)
-    if gave_up := elements.gave_up or reversing.gave_up:
-        raise EnumerationLimitError(gave_up)
     certified = getattr(Pi, "bound", 0.0) is not None
     return SymplecticGroup(
         elements, reversing, is_hyperelliptic(Pi if certified else np.asarray(Pi))

@@ -37,6 +37,7 @@ from numpy.typing import ArrayLike
 from igl_periods.arrays import Complexes, Floats, Ints
 from igl_periods.display import facts_html, integer_lines, lines_html
 from igl_periods.errors import EnumerationLimitError
+from igl_periods.options import checked_integer, checked_number, checked_switch
 from igl_periods.siegel import check_same_genus, log_eigenvalues, siegel_reduce, siegel_transform
 from igl_periods.symplectic import energy_matrix, form_action, product, unimodular_inverse
 
@@ -61,7 +62,7 @@ class Isomorphisms(list[Ints]):
         the two surfaces is in the list, and an empty list proves that there is none.
     complete : bool
         Whether the search came to its end: neither the limit that was asked for nor the work
-        limit stopped it.
+        limit stopped it.  Nothing follows from what is not in an incomplete list.
     gave_up : str
         Which work limit stopped the search; empty if none did.
     """
@@ -70,7 +71,7 @@ class Isomorphisms(list[Ints]):
         super().__init__()
         self.tolerance = tolerance
         self.certified = certified
-        self.complete = True
+        self.complete = False
         self.gave_up = ""
 
     def __repr__(self) -> str:
@@ -93,6 +94,8 @@ class Isomorphisms(list[Ints]):
         if self:
             stopped = "" if self.complete else ", and there may be more"
             return f"{len(self)} transformations within {self.tolerance:.3g}{stopped}"
+        if not self.complete:
+            return "undecided: the search was stopped before it found a transformation"
         if self.certified:
             return "proved: the two polyhedral surfaces are not conformally equivalent"
         return f"no transformation within {self.tolerance:.3g}"
@@ -134,7 +137,8 @@ def symplectic_isomorphisms(
         If an argument is no point of the Siegel upper half-space.
     ValueError
         If the genera differ, the tolerance is not positive or too large to separate anything, or
-        there is no tolerance: an uncertified PeriodMatrix has none.
+        there is no tolerance: an uncertified PeriodMatrix has none.  If an option has no such
+        value.
 
     Examples
     --------
@@ -142,13 +146,15 @@ def symplectic_isomorphisms(
     [[[0, 1], [-1, 0]], [[0, -1], [1, 0]]]
     """
     one, two = check_same_genus(Pi1, Pi2)
-    if reversing:
+    limit = _checked_limit(limit)
+    if checked_switch("reversing", reversing):
         one = -one.conj()
     found = Isomorphisms(*_checked_tolerance(Pi1, Pi2, tolerance))
     if len(one):
         _search(one, two, found, limit)
     else:
         found.append(np.zeros((0, 0), dtype=np.int64))
+        found.complete = True
     if reversing:
         # γ = γ' K, where γ' takes −Π̄₁ to Π₂ and K = diag(1, −1).
         found[:] = [gamma * np.repeat([1, -1], len(one)) for gamma in found]
@@ -184,7 +190,7 @@ def moduli_distance(Pi1: ArrayLike, Pi2: ArrayLike, tolerance: float) -> float:
     0.002002
     """
     found = symplectic_isomorphisms(Pi1, Pi2, tolerance)
-    if found.gave_up:
+    if not found.complete:
         raise EnumerationLimitError(found.gave_up)
     logarithms = logarithms_found(found, Pi1, Pi2)
     return float(np.linalg.norm(logarithms, axis=1).min(initial=math.inf))
@@ -206,15 +212,25 @@ def _checked_tolerance(
     if tolerance is None:
         t = sum(_log_bound(Pi) for Pi in (Pi1, Pi2)) + float(np.finfo(np.float64).eps)
     else:
-        t = float(tolerance)
+        t = checked_number("the tolerance", tolerance)
     if not t > 0:
         raise ValueError(f"the tolerance must be a positive number, not {tolerance}")
     if t >= LARGEST_TOLERANCE:
         raise ValueError(
-            f"a tolerance of {t:.3g} is too large to separate anything: it must be less than "
-            "log 2 = 0.693. Where it comes from certificates, refine the mesh or raise the degree."
+            f"a tolerance of {t!r} is too large to separate anything: it must be less than "
+            f"log 2 = {LARGEST_TOLERANCE!r}. Where it comes from certificates, refine the mesh "
+            "or raise the degree."
         )
     return t, certified
+
+
+def _checked_limit(limit: int | None) -> int | None:
+    if limit is None:
+        return None
+    number = checked_integer("limit", limit)
+    if number < 0:
+        raise ValueError(f"limit = {number}: a number of transformations is not negative.")
+    return number
 
 
 def _log_bound(Pi: Any) -> float:
@@ -237,8 +253,9 @@ def _search(one: Complexes, two: Complexes, found: Isomorphisms, limit: int | No
     try:
         for U in isometries(energy_matrix(point1), energy_matrix(point2), found.tolerance):
             if limit is not None and len(found) >= limit:
-                found.complete = False
                 return
             found.append(product(back, product(form_action(U).astype(np.int64), gamma1)))
     except EnumerationLimitError as error:
-        found.complete, found.gave_up = False, str(error)
+        found.gave_up = str(error)
+    else:
+        found.complete = True

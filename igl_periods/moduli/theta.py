@@ -108,8 +108,9 @@ def is_hyperelliptic(Pi: ArrayLike) -> bool | None:
     """Whether the surface is hyperelliptic, as far as Π tells here.
 
     Surfaces of genus 1 and 2 are.  One of genus 3 is iff an even theta constant vanishes: False
-    is proved for all matrices within the error of Π, True means that Π is as close as its error
-    to a hyperelliptic one.  None beyond genus 3, and where the error is too large.
+    is proved for all matrices within the error of Π, True means that one of the 36 may vanish and
+    the others certainly do not, so that Π is as close as its error to a hyperelliptic one.  None
+    where several may vanish: the error is too large, or this is a product.  None beyond genus 3.
 
     Raises
     ------
@@ -120,7 +121,7 @@ def is_hyperelliptic(Pi: ArrayLike) -> bool | None:
     if genus < 3:
         return True
     vanishing = vanishing_even_characteristics(Pi) if genus == 3 else None
-    return None if vanishing is None else bool(vanishing)
+    return None if vanishing is None or len(vanishing) > 1 else bool(vanishing)
 
 
 def of_genus(Pi: ArrayLike, genus: int) -> Complexes:

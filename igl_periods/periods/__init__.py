@@ -25,6 +25,7 @@ triangles have the stored lengths.
 ``proof``             the same with energies in balls: the bound is proved
 ``adaptive_degree``   the degree that meets a tolerance
 ``computation``       the steps, one after the other
+``marking``           which faces are divided
 ``adaptive_mesh``     finer triangulations where the bound originates
 ``quality``           what limits the accuracy of a mesh
 ``extrapolation``     smooth surfaces from several meshes, uncertified
@@ -37,10 +38,10 @@ References
 Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 3.
 """
 
-from .arguments import check_options
+from .arguments import checked_options
 from .solved_forms import SolvedForms, solve_forms
 from .derivative import EntryCovariance, Gradient
-from .matrix import PeriodMatrix, reduced_if_feasible, siegel_reduced
+from .matrix import PeriodMatrix, check_period_matrix, reduced_if_feasible, siegel_reduced
 from .certificate import certified_period_matrix
 from .adaptive_degree import ToleranceWarning
 from .computation import period_matrix, period_matrix_from_weights
@@ -55,12 +56,13 @@ __all__ = [
     "LEAST_ALLOWANCE",
     "combined",
     "congruence",
-    "check_options",
+    "checked_options",
     "SolvedForms",
     "solve_forms",
     "Gradient",
     "EntryCovariance",
     "PeriodMatrix",
+    "check_period_matrix",
     "siegel_reduced",
     "reduced_if_feasible",
     "certified_period_matrix",

@@ -37,12 +37,13 @@ from igl_periods.elements import (
     separate_cones,
 )
 from igl_periods.errors import ComplexError
-from igl_periods.harmonic import energy_factor, factored, most_of
-from igl_periods.memory import available_memory
+from igl_periods.harmonic import energy_factor, factored
+from igl_periods.machine import available_memory
 from igl_periods.run_log import logger
 from igl_periods.symplectic import williamson_basis
 
 from .certificate import Method
+from .marking import marked_faces
 from .matrix import PeriodMatrix
 from .memory_estimates import high_order_memory, room_for_forms
 
@@ -102,7 +103,7 @@ class Plan:
 class Limits:
     """The most unknowns and bytes that an attempt may take; None where nobody set a limit."""
 
-    unknowns: int | None
+    unknowns: float | None
     memory: float | None
 
 
@@ -110,7 +111,7 @@ def period_matrix_within(
     triangulation: MarkedComplex,
     method: Method,
     tolerance: float,
-    max_unknowns: int | None = None,
+    max_unknowns: float | None = None,
     max_memory: float | None = None,
 ) -> PeriodMatrix:
     """Compute a period matrix whose certified bound is at most ``tolerance``.
@@ -126,7 +127,7 @@ def period_matrix_within(
         From forms to period matrices, and to finer triangulations.
     tolerance : float
         The bound to reach.
-    max_unknowns : int, optional
+    max_unknowns : number, optional
         No attempt has more unknowns in its sparse system than this.
     max_memory : float, optional
         No attempt takes more bytes than this, by default more than are available.
@@ -215,16 +216,22 @@ def _next_plan(
     attempts: list[Attempt], method: Method, tolerance: float, limits: Limits
 ) -> Plan | str:
     """The cheapest way to go on, or why there is none."""
-    last, rounding = attempts[-1], attempts[-1].result.rounding
-    if last.bound < 2.0 * rounding:
-        return f"rounding accounts for {rounding:.2g} of it"
-    if _stagnates(attempts):
+    last = attempts[-1]
+    # On needles the allowance is made of energy of the forms, and falls with their error: what it
+    # will come down to is not above the least that was seen.
+    rounding = min(attempt.result.rounding for attempt in attempts)
+    stagnates = _stagnates(attempts)
+    if last.bound < 2.0 * (last.result.rounding if stagnates else rounding):
+        return f"rounding accounts for {last.result.rounding:.2g} of it"
+    if stagnates:
         return "neither a higher degree nor smaller faces lower it further"
     target = max(tolerance, 1.2 * rounding)
     plans = [_raised(attempts, target)] if last.degree < HIGHEST_DEGREE else []
     if last.degree > 1:
-        plans.append(_divided(last, method, target))
+        plans += _divided(last, method, target)
     reasons = []
+    if not plans:
+        return "the degree is as high as it gets, and faces that hold it are too thin to be divided"
     for _, plan in sorted(plans, key=lambda costed: costed[0]):
         reason = _unaffordable(plan, limits)
         if reason is None:
@@ -268,15 +275,20 @@ def _discretisation(attempt: Attempt) -> float:
     return max(attempt.bound - attempt.result.rounding, np.finfo(float).eps)
 
 
-def _divided(last: Attempt, method: Method, target: float) -> tuple[float, Plan]:
-    """The predicted cost of meeting the target by division, and the first round of it."""
+def _divided(last: Attempt, method: Method, target: float) -> list[tuple[float, Plan]]:
+    """The predicted cost of meeting the target by division, and the first round of it.
+
+    Nothing where the faces that hold the bound are too thin.
+    """
     where = last.triangulation
-    faces = most_of(last.excess, _MARKED)
+    faces = marked_faces(where.complex, last.excess, _MARKED)
+    if faces.size == 0:
+        return []
     finer = method.divided(where, faces)
     growth = count_unknowns(finer.after(separate_cones).complex, last.degree) / last.unknowns
     rounds = np.ceil(np.log(last.bound / target) / np.log(_ROUND_RATIO))
     cost = float(np.sum(growth ** np.arange(1.0, rounds + 1.0)))
-    return cost, Plan(finer, last.degree, growth * last.seconds)
+    return [(cost, Plan(finer, last.degree, growth * last.seconds))]
 
 
 def _unaffordable(plan: Plan, limits: Limits) -> str | None:
@@ -285,7 +297,7 @@ def _unaffordable(plan: Plan, limits: Limits) -> str | None:
     what = f"degree {plan.degree} on {plan.triangulation.complex.n_faces} faces takes"
     unknowns = count_unknowns(separated.complex, plan.degree)
     if limits.unknowns is not None and unknowns > limits.unknowns:
-        return f"{what} {unknowns} unknowns, and {limits.unknowns} are the limit"
+        return f"{what} {unknowns} unknowns, and {limits.unknowns:g} are the limit"
     needed = high_order_memory(separated.complex, plan.degree, separated.rank)
     memory = available_memory() if limits.memory is None else limits.memory
     if needed > memory:

@@ -27,7 +27,7 @@ from functools import partial
 
 from scipy.sparse import csr_array
 
-from igl_periods.arrays import Floats
+from igl_periods.arrays import Floats, ReadOnlyArrays
 from igl_periods.complexes import (
     DeltaComplex,
     cotan_weights,
@@ -42,11 +42,12 @@ from igl_periods.harmonic import (
     energy_excess,
     geometric_allowance,
     harmonic_potentials,
-    most_of,
 )
+from igl_periods.options import checked_integer, checked_number, checked_switch
 from igl_periods.run_log import stage
 from igl_periods.topology import cohomology_basis
 
+from .marking import marked_faces
 from .matrix import PeriodMatrix
 from .rounding import LEAST_ALLOWANCE
 
@@ -55,7 +56,7 @@ _MARKED_PART = 0.5
 
 
 @dataclass(frozen=True, eq=False)
-class Refined:
+class Refined(ReadOnlyArrays):
     """A refined triangulation and the period matrix it gives.
 
     Attributes
@@ -100,8 +101,8 @@ def refined_period_matrix(
     bound : float
         The wanted bound, > 0.
     largest : int
-        No triangulation with more faces is made; where the bound is not reached by then, the last
-        result is returned.
+        No triangulation with more faces is made; where the bound is not reached by then, or all
+        faces that hold it are too thin to be divided, the last result is returned.
     local : bool
         Refine where the bound comes from (:mod:`igl_periods.harmonic.excess`), or divide every face
         into four each time.
@@ -109,12 +110,14 @@ def refined_period_matrix(
     Raises
     ------
     ValueError
-        If ``bound`` is not positive.
+        If ``bound`` is not positive, ``largest`` no integer or ``local`` neither True nor False.
     ComplexError
         If the surface is not closed, oriented and connected.
     """
+    bound = checked_number("the wanted bound", bound)
     if not bound > 0:
         raise ValueError(f"the wanted bound must be positive, not {bound}.")
+    largest, local = checked_integer("largest", largest), checked_switch("local", local)
     cocycles = cohomology_basis(K)
     L, cochains = intrinsic_delaunay(K, cocycles)
     steps: list[tuple[int, float]] = []
@@ -128,7 +131,10 @@ def refined_period_matrix(
         with stage(f"refining {L.n_faces} faces"):
             if local:
                 excess = energy_excess(L, cochains, potentials, pm.dirichlet).sum(axis=0)
-                finer = insert_barycentres(L, cochains, most_of(excess, _MARKED_PART)[: room // 2])
+                marked = marked_faces(L, excess, _MARKED_PART)[: room // 2]
+                if marked.size == 0:
+                    return Refined(pm, L, cochains, tuple(steps))
+                finer = insert_barycentres(L, cochains, marked)
             else:
                 finer = split(L, cochains)
             L, cochains = intrinsic_delaunay(*finer)

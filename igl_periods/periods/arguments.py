@@ -2,34 +2,77 @@
 
 from __future__ import annotations
 
-from numbers import Real
-
 import numpy as np
 from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Floats
 from igl_periods.complexes import DeltaComplex, check_equal_when_glued, checked_array
 from igl_periods.errors import ComplexError
+from igl_periods.options import checked_integer, checked_number, in_words
 
 _LARGEST_WEIGHT = 1e100
+_LARGEST_DEGREE = 1000
 
 
-def check_options(
+def checked_options(
     weights: str, degree: int, tolerance: float | None, rigorous: bool = False
-) -> None:
-    """Refuse options of :func:`period_matrix` that have no such value or contradict each other."""
-    if weights not in ("intrinsic", "extrinsic"):
-        raise ValueError(f'weights must be "intrinsic" or "extrinsic", not {weights!r}.')
-    if not (isinstance(degree, Real) and float(degree).is_integer() and degree >= 1):
-        raise ValueError(f"degree = {degree}: trial functions have degree 1 at least.")
-    if tolerance is not None and not tolerance > 0.0:
-        raise ValueError(f"tolerance = {tolerance}: a bound is always positive.")
+) -> tuple[int, float | None]:
+    """Refuse options of :func:`period_matrix` that have no such value or contradict each other.
+
+    Returns
+    -------
+    degree : int
+    tolerance : float or None
+        As numbers of Python.
+    """
+    if not isinstance(weights, str) or weights not in ("intrinsic", "extrinsic"):
+        raise ValueError(f'weights must be "intrinsic" or "extrinsic", not {in_words(weights)}.')
+    degree = _checked_degree(degree)
+    tolerance = checked_tolerance(tolerance)
     if weights == "extrinsic" and (degree != 1 or tolerance is not None):
         raise ValueError("extrinsic weights have degree 1 and no bound: leave both options away.")
     if weights == "extrinsic" and rigorous:
         raise ValueError("extrinsic weights have no bound that could be proved: rigorous=True.")
     if degree != 1 and tolerance is not None:
         raise ValueError("a tolerance chooses the degree: leave one of the two away.")
+    return degree, tolerance
+
+
+def _checked_degree(degree: int) -> int:
+    try:
+        p = checked_integer("it", degree)
+    except ValueError as error:
+        raise ValueError(
+            f"degree = {degree!r}: trial functions have degree 1 at least, and {error}"
+        ) from None
+    if not 1 <= p <= _LARGEST_DEGREE:
+        raise ValueError(
+            f"degree = {p}: trial functions have degree 1 at least, {_LARGEST_DEGREE} at most."
+        )
+    return p
+
+
+def checked_tolerance(tolerance: float | None) -> float | None:
+    """A positive tolerance, or None."""
+    if tolerance is None:
+        return None
+    number = checked_number("tolerance", tolerance)
+    if not number > 0.0:
+        raise ValueError(f"tolerance = {number:g}: a bound is always positive.")
+    return number
+
+
+def checked_limits(
+    max_unknowns: float | None, max_memory: float | None
+) -> tuple[float | None, float | None]:
+    """Most unknowns and bytes, at least 0, or None where nothing is said."""
+    limits = []
+    for name, limit in (("max_unknowns", max_unknowns), ("max_memory", max_memory)):
+        number = None if limit is None else checked_number(name, limit)
+        if number is not None and not number >= 0.0:
+            raise ValueError(f"{name} = {number:g}: a limit is not negative.")
+        limits.append(number)
+    return limits[0], limits[1]
 
 
 def check_kept_forms(weights: str, tolerance: float | None, rigorous: bool) -> None:

@@ -23,11 +23,12 @@ from igl_periods.complexes import (
 )
 from igl_periods.elements import high_order_forms, separate_cones
 from igl_periods.harmonic import factored, harmonic_potentials, weighted_energies
+from igl_periods.options import checked_switch
 from igl_periods.run_log import stage
 from igl_periods.topology import mark
 
 from .adaptive_degree import period_matrix_within
-from .arguments import check_kept_forms, check_options, edge_weights
+from .arguments import check_kept_forms, checked_limits, checked_options, edge_weights
 from .certificate import Method, WithAllowance, certified_period_matrix
 from .matrix import PeriodMatrix
 from .memory_estimates import check_high_order, room_for_forms
@@ -43,7 +44,7 @@ def period_matrix(
     delaunay: bool = True,
     degree: int = 1,
     tolerance: float | None = None,
-    max_unknowns: int | None = None,
+    max_unknowns: float | None = None,
     max_memory: float | None = None,
     rigorous: bool = False,
     keep_forms: bool = False,
@@ -70,7 +71,7 @@ def period_matrix(
         the bound falls exponentially with the degree.
     tolerance : float, optional
         Raise the degree, and divide faces where that is cheaper, until ``bound`` is at most this.
-    max_unknowns : int, optional
+    max_unknowns : number, optional
         With ``tolerance``: solve no system with more unknowns.
     max_memory : float, optional
         Bytes that the computation may take; by default what is available.  Where the functions of
@@ -122,8 +123,11 @@ def period_matrix(
     >>> proved.rigorous, proved.bound < 1e-12
     (True, True)
     """
-    check_options(weights, degree, tolerance, rigorous)
-    if keep_forms:
+    degree, tolerance = checked_options(weights, degree, tolerance, rigorous)
+    max_unknowns, max_memory = checked_limits(max_unknowns, max_memory)
+    delaunay = checked_switch("delaunay", delaunay)
+    rigorous = checked_switch("rigorous", rigorous)
+    if checked_switch("keep_forms", keep_forms):
         check_kept_forms(weights, tolerance, rigorous)
     K = as_complex(surface, F)
     room = room_for_forms(K, max_memory)

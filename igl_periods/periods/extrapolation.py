@@ -30,7 +30,7 @@ involving differential equations" (1911).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -38,10 +38,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from igl_periods.arrays import Complexes, Floats, Ints
+from igl_periods.arrays import Complexes, Floats, Ints, ReadOnlyArrays
 from igl_periods.complexes import DeltaComplex, periodic_grid
 from igl_periods.display import facts_html, matrix_html, matrix_lines
 from igl_periods.moduli import symplectic_isomorphisms
+from igl_periods.options import checked_integer, in_words
 from igl_periods.run_log import logger
 from igl_periods.siegel import siegel_distance, siegel_transform
 
@@ -57,7 +58,7 @@ _SEARCHED = (0.01, 0.1, 0.4, 0.69)
 
 
 @dataclass(frozen=True, eq=False)
-class Extrapolation:
+class Extrapolation(ReadOnlyArrays):
     """The period matrix of a smooth surface, by extrapolation: an estimate, not a certificate.
 
     Attributes
@@ -120,7 +121,7 @@ def richardson(family: Family, sizes: Sequence[int], **options: Any) -> Extrapol
     ------
     ValueError
         If there are less than three sizes, they do not ascend, the genus changes, or the matrices
-        of two meshes are too far apart to be compared.
+        of two meshes are too far apart to be compared, or too symmetric.
 
     Examples
     --------
@@ -129,6 +130,9 @@ def richardson(family: Family, sizes: Sequence[int], **options: Any) -> Extrapol
     >>> 1.9 < limit.order < 2.1
     True
     """
+    sizes = _checked_sizes(sizes)
+    if not callable(family):
+        raise ValueError(f"the family must be a function of n, not {in_words(family)}.")
     if len(sizes) < 3 or not all(a < b for a, b in pairwise(sizes)) or sizes[0] < 1:
         raise ValueError(f"richardson needs three or more ascending sizes, not {list(sizes)}.")
     computed = [_period_matrix(family(n), options) for n in sizes]
@@ -143,6 +147,12 @@ def richardson(family: Family, sizes: Sequence[int], **options: Any) -> Extrapol
     error = max(error, LEAST_ALLOWANCE)
     logger.info("extrapolated from n = %s: order %s, error about %.1e", list(sizes), order, error)
     return Extrapolation(matrix, order, error, tuple(sizes), tuple(aligned))
+
+
+def _checked_sizes(sizes: Sequence[int]) -> list[int]:
+    if not isinstance(sizes, Iterable) or np.ndim(sizes) == 0:
+        raise ValueError(f"richardson needs three or more ascending sizes, not {in_words(sizes)}.")
+    return [checked_integer("a size", n) for n in sizes]
 
 
 def sampled_torus(immersion: Callable[[Floats, Floats], Floats], aspect: float = 1.0) -> Family:
@@ -175,6 +185,11 @@ def _in_marking_of(finest: PeriodMatrix, pm: PeriodMatrix) -> PeriodMatrix:
         raise ValueError(f"the genus of the meshes changes, from {pm.genus} to {finest.genus}.")
     for tolerance in _SEARCHED:
         found = symplectic_isomorphisms(pm.matrix, finest.matrix, tolerance=tolerance)
+        if not found.complete:
+            raise ValueError(
+                "the search for the marking that two of the meshes have in common was given up "
+                f"({found.gave_up}): start with a finer mesh."
+            )
         if found:
             return pm.change_basis(min(found, key=lambda gamma: _moved(gamma, pm, finest)))
     raise ValueError(

@@ -61,6 +61,7 @@ from igl_periods.complexes import DeltaComplex
 from igl_periods.display import matrix_html, matrix_latex, matrix_lines, paragraph_html, rounded_up
 from igl_periods.errors import ComplexError, NotASiegelPointError, NotPositiveDefiniteError
 from igl_periods.harmonic import energy_factor
+from igl_periods.options import in_words
 from igl_periods.siegel import SIEGEL_GENUS_LIMIT, check_symplectic, siegel_reduce, to_flint
 from igl_periods.symplectic import (
     form_action,
@@ -374,6 +375,14 @@ def reduced_if_feasible(
     except (ComplexError, NotASiegelPointError) as error:
         warnings.warn(f"the matrix was not reduced: {error}", stacklevel=2)
         return None, None
+
+
+def check_period_matrix(pm: Any) -> None:
+    """Raise ValueError unless it is a :class:`PeriodMatrix`, with its surface and its marking."""
+    if not isinstance(pm, PeriodMatrix):
+        raise ValueError(
+            f"this needs a PeriodMatrix, as period_matrix(V, F) returns it, not {in_words(pm)}."
+        )
 
 
 def _read_only(array: NDArray[Any]) -> NDArray[Any]:

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from igl_periods.arrays import Floats
+from igl_periods.arrays import Floats, ReadOnlyArrays
 from igl_periods.complexes import (
     DeltaComplex,
     angles,
@@ -44,7 +44,7 @@ _COCIRCULAR = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
-class MeshQuality:
+class MeshQuality(ReadOnlyArrays):
     """What decides about the accuracy of the period matrix of a mesh.
 
     Attributes

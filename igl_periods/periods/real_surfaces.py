@@ -28,7 +28,7 @@ from igl_periods.complexes import involution
 from igl_periods.symplectic import standard_form
 from igl_periods.topology import pairing
 
-from .matrix import PeriodMatrix
+from .matrix import PeriodMatrix, check_period_matrix
 
 
 def real_structure(pm: PeriodMatrix) -> Ints:
@@ -50,6 +50,7 @@ def real_structure(pm: PeriodMatrix) -> Ints:
     ComplexError
         If ``pm.complex`` is no double.
     """
+    check_period_matrix(pm)
     g = pm.genus
     S = _action(pm)
     p, q, r, s = S[:g, :g], S[:g, g:], S[g:, :g], S[g:, g:]

@@ -24,7 +24,7 @@ from igl_periods.arrays import Floats
 from igl_periods.differentials import Parametrization, most_even_form, parametrize
 from igl_periods.display import LARGEST_SHOWN, matrix_html
 from igl_periods.errors import ComplexError, RenderError
-from igl_periods.extras import require
+from igl_periods.machine import require
 from igl_periods.meshes import MeshReport
 from igl_periods.periods import MeshQuality, PeriodMatrix, mesh_quality
 from igl_periods.pictures import (

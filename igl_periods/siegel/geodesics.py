@@ -27,6 +27,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Complexes, Floats
+from igl_periods.options import checked_integer
 
 from .half_space import check_same_genus, check_siegel_point
 
@@ -99,6 +100,7 @@ def moduli_path(Pi1: ArrayLike, Pi2: ArrayLike, n: int) -> Complexes:
     >>> moduli_path([[1j]], [[4j]], 3)[1].round(12)  # the geometric mean
     array([[0.+2.j]])
     """
+    n = checked_integer("n", n)
     if n < 2:
         raise ValueError(f"n = {n}: a path has 2 points at least, its ends.")
     start, end = check_same_genus(Pi1, Pi2)

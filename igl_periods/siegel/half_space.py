@@ -17,17 +17,21 @@ Siegel, "Symplectic geometry" (1943).
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Complexes, Floats, Ints
 from igl_periods.errors import NotASiegelPointError
+from igl_periods.options import in_words
 from igl_periods.symplectic import is_symplectic
 
 from .action import moebius
 
 # Entries may differ from their mirror image by this much, relative to the largest entry.
 _ASYMMETRY = 1e-8
+_LARGEST_ENTRY = int(np.iinfo(np.int64).max)
 
 
 def check_siegel_point(Pi: ArrayLike) -> Complexes:
@@ -44,7 +48,7 @@ def check_siegel_point(Pi: ArrayLike) -> Complexes:
         If Π is not square, not finite, not symmetric (to 1e-8 of its largest entry), or Im Π is
         not positive definite.
     """
-    matrix = np.array(np.asarray(Pi), dtype=np.complex128)
+    matrix = _complex_array(Pi)
     if matrix.ndim != 2 or matrix.shape[0] != matrix.shape[1]:
         raise NotASiegelPointError(f"a period matrix is square, but this has shape {matrix.shape}")
     if not np.isfinite(matrix).all():
@@ -57,6 +61,17 @@ def check_siegel_point(Pi: ArrayLike) -> Complexes:
         _check_symmetry(matrix)
         _check_positivity(matrix.imag)
     return 0.5 * (matrix + matrix.T)
+
+
+def _complex_array(Pi: ArrayLike) -> Complexes:
+    try:
+        given = np.asarray(Pi)
+        if given.dtype.kind in "biufcO":
+            return np.array(given, dtype=np.complex128)
+    except (TypeError, ValueError):
+        given = np.empty(0, dtype=object)
+    what = in_words(Pi) if given.dtype.kind == "O" else f"an array of {given.dtype}"
+    raise NotASiegelPointError(f"a period matrix is an array of complex numbers, not {what}")
 
 
 def _check_symmetry(matrix: Complexes) -> None:
@@ -110,7 +125,8 @@ def siegel_transform(gamma: ArrayLike, Pi: ArrayLike) -> Complexes:
     Raises
     ------
     ValueError
-        If γ is not integer, has another size than Π asks for, or is not symplectic (exactly).
+        If γ is not integer, has entries beyond 64 bits or another size than Π asks for, or is not
+        symplectic (exactly).
     NotASiegelPointError
         If Π is no point of the Siegel upper half-space.
 
@@ -130,15 +146,25 @@ def check_symplectic(gamma: ArrayLike, g: int) -> Ints:
         raise ValueError(
             f"a modular transformation in genus {g} has shape {(2 * g, 2 * g)}, not {given.shape}"
         )
-    matrix = given.astype(np.int64)
-    if not np.array_equal(matrix, given):
+    if given.dtype.kind not in "biufO" or not all(_is_integral(x) for x in given.ravel().tolist()):
         raise ValueError("a modular transformation has integer entries, this matrix has others")
+    largest = max((abs(int(x)) for x in given.ravel().tolist()), default=0)
+    if largest > _LARGEST_ENTRY:
+        raise ValueError(
+            f"a modular transformation has entries up to 2^63 - 1 here, and this has {largest}. "
+            "Apply it in steps, or reduce the matrix first (siegel_reduce)."
+        )
+    matrix = given.astype(np.int64)
     if not is_symplectic(matrix):
         raise ValueError(
             "the matrix is not symplectic: γ J γᵀ differs from J = [[0, 1], [-1, 0]]. (Matrices "
             "that act on forms or cycles in another order are other conjugates of γ.)"
         )
     return matrix
+
+
+def _is_integral(x: Any) -> bool:
+    return isinstance(x, int) or (isinstance(x, float) and x.is_integer())
 
 
 def siegel_distance(Pi1: ArrayLike, Pi2: ArrayLike) -> float:

@@ -35,6 +35,7 @@ from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Complexes, Ints
 from igl_periods.display import facts_html, integer_lines, lines_html, matrix_html, matrix_lines
+from igl_periods.options import checked_number
 from igl_periods.symplectic import energy_matrix, form_action
 
 from .action import moebius
@@ -155,7 +156,7 @@ def siegel_reduce(Pi: ArrayLike, *, max_genus: int = SIEGEL_GENUS_LIMIT) -> Sieg
 
 def _check_genus(genus: int, max_genus: int) -> None:
     """Raise ValueError if a genus is too large for Siegel reduction."""
-    if genus > max_genus:
+    if not genus <= checked_number("max_genus", max_genus):
         raise ValueError(
             f"Siegel reduction is done up to genus {max_genus} unless asked for, and this matrix "
             f"has genus {genus}: the time grows like g³, to a minute and more above genus "

@@ -29,7 +29,7 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from igl_periods.arrays import Complexes, Ints
+from igl_periods.arrays import Complexes, Ints, ReadOnlyArrays
 from igl_periods.complexes import SurfaceLike, as_complex, is_array_like
 from igl_periods.display import facts_html
 from igl_periods.moduli import (
@@ -38,6 +38,7 @@ from igl_periods.moduli import (
     logarithms_found,
     symplectic_isomorphisms,
 )
+from igl_periods.options import checked_number
 from igl_periods.siegel import check_siegel_point
 
 from .named_surface import NamedSurface
@@ -50,7 +51,7 @@ _EXACT_ERROR = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
-class Match:
+class Match(ReadOnlyArrays):
     r"""A named surface near a period matrix Π.
 
     Attributes
@@ -187,14 +188,16 @@ def identify(Pi: Any, F: Any = None, tolerance: float | None = None) -> Identifi
     if F is not None or not is_array_like(Pi):
         Pi = matrix_of(as_complex(Pi, F))
     matrix = check_siegel_point(Pi)
-    if tolerance is not None and not tolerance >= 0:
-        raise ValueError(f"the tolerance must not be negative, but it is {tolerance}")
+    if tolerance is not None:
+        tolerance = checked_number("the tolerance", tolerance)
+        if not tolerance >= 0:
+            raise ValueError(f"the tolerance must not be negative, but it is {tolerance}")
     known = _Knowledge.of(Pi, tolerance)
     surfaces = catalogue(len(matrix))
     matches, undecided = [], []
     for surface in surfaces:
         found = symplectic_isomorphisms(matrix, surface.matrix, known.radius)
-        if found.gave_up:
+        if not found.complete:
             undecided.append(surface.name)
         elif found:
             matches.append(_nearest(matrix, surface, found, known))

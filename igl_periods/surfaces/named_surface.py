@@ -6,13 +6,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
-from igl_periods.arrays import Complexes
+from igl_periods.arrays import Complexes, ReadOnlyArrays
 from igl_periods.display import facts_html, matrix_html
 from igl_periods.siegel import check_siegel_point
 
 
 @dataclass(frozen=True, eq=False)
-class NamedSurface:
+class NamedSurface(ReadOnlyArrays):
     """A Riemann surface with an exact period matrix.
 
     Attributes

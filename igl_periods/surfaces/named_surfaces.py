@@ -20,24 +20,36 @@ Bujalance, Costa, Gamboa, Riera, "Period matrices of Accola-Maclachlan and Kulka
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
 from igl_periods.arrays import Complexes
+from igl_periods.options import checked_integer
 from igl_periods.symplectic import integer_symplectic_basis
 
 from .named_surface import NamedSurface
 
+_LARGEST_GENUS = 1_000_000
+
 
 def catalogue(genus: int) -> list[NamedSurface]:
     """All named surfaces of a genus; no two of them are conformally equivalent.
+
+    Raises
+    ------
+    ValueError
+        If the genus is no integer, negative, or beyond a million.
 
     Examples
     --------
     >>> [surface.name for surface in catalogue(2)]
     ['Omega_1', 'Bolza curve', 'y^2 = x^5 - 1', 'Lawson xi_{2,1}']
     """
+    genus = checked_integer("genus", genus)
+    if not 0 <= genus <= _LARGEST_GENUS:
+        raise ValueError(f"genus = {genus}: surfaces of genus 0 to {_LARGEST_GENUS} have names.")
     single = [surface for surface in _SINGLE if surface.genus == genus]
     return single + list(_families(genus))
 
@@ -85,37 +97,37 @@ def _binomial(n: int) -> NamedSurface:
         tuple(names[1:]),
         genus,
         "periods are powers of roots of unity; Bujalance, Costa, Gamboa, Riera (2000)",
-        lambda: binomial_period_matrix(n),
+        partial(binomial_period_matrix, n),
     )
 
 
 def _lawson(m: int, k: int) -> NamedSurface:
-    def exact() -> Complexes:
-        from .lawson.periods import lawson_period_matrix
-
-        return lawson_period_matrix(m, k)
-
     curve = f"y^{k + 1} = (x^{m + 1} - 1)/(x^{m + 1} + 1)"
     source = "periods as beta and hypergeometric functions; Lawson (1970) for the surface"
-    return NamedSurface(f"Lawson xi_{{{m},{k}}}", (curve,), m * k, source, exact)
+    return NamedSurface(
+        f"Lawson xi_{{{m},{k}}}", (curve,), m * k, source, partial(_exact_lawson, m, k)
+    )
 
 
-def _square_tiled(name: str) -> Callable[[], Complexes]:
-    def exact() -> Complexes:
-        from .square_tiled import square_tiled_period_matrix
-
-        return square_tiled_period_matrix(name)
-
-    return exact
+# Functions of the module, which can be pickled; what they import is slow, and seldom needed.
 
 
-def _regular_map(name: str) -> Callable[[], Complexes]:
-    def exact() -> Complexes:
-        from .regular_maps import regular_map_period_matrix
+def _exact_lawson(m: int, k: int) -> Complexes:
+    from .lawson.periods import lawson_period_matrix
 
-        return regular_map_period_matrix(name)
+    return lawson_period_matrix(m, k)
 
-    return exact
+
+def _square_tiled(name: str) -> Complexes:
+    from .square_tiled import square_tiled_period_matrix
+
+    return square_tiled_period_matrix(name)
+
+
+def _regular_map(name: str) -> Complexes:
+    from .regular_maps import regular_map_period_matrix
+
+    return regular_map_period_matrix(name)
 
 
 def _wente() -> Complexes:
@@ -130,14 +142,14 @@ _SINGLE = (
         ("y^2 = x^3 - x", "y^2 = x^4 - 1", "Clifford torus", "Lawson xi_{1,1}"),
         1,
         "tau = i",
-        lambda: np.array([[1j]]),
+        partial(np.array, [[1j]]),
     ),
     NamedSurface(
         "hexagonal torus",
         ("y^2 = x^3 - 1", "y^2 = x^3 + 1", "Fermat cubic"),
         1,
         "tau = exp(i pi/3)",
-        lambda: np.array([[0.5 + 0.5j * np.sqrt(3)]]),
+        partial(np.array, [[0.5 + 0.5j * np.sqrt(3)]]),
     ),
     NamedSurface(
         "Wente torus",
@@ -151,41 +163,41 @@ _SINGLE = (
         ("L-shaped origami of three squares",),
         2,
         "Bobenko, Mercat, Schmies, section 4.1, after Silhol",
-        _square_tiled("omega_1"),
+        partial(_square_tiled, "omega_1"),
     ),
     NamedSurface(
         "Bolza curve",
         ("y^2 = x^5 - x", "Omega_2", "regular map {3,8} of genus 2", "four-square surface {4,8}"),
         2,
         "Bobenko, Mercat, Schmies, section 4.1, after Silhol; Bolza (1887)",
-        _square_tiled("omega_2"),
+        partial(_square_tiled, "omega_2"),
     ),
     NamedSurface(
         "Klein quartic",
         ("x^3 y + y^3 z + z^3 x = 0", "regular map {3,7}", "Hurwitz surface of genus 3"),
         3,
         "Braden, Northover (2010)",
-        _regular_map("klein"),
+        partial(_regular_map, "klein"),
     ),
     NamedSurface(
         "Fermat quartic",
         ("x^4 + y^4 + z^4 = 0", "Dyck surface", "regular map {3,8} of genus 3"),
         3,
         "Gaussian multiples of K(1/sqrt 2)/2; recognised in the periods of abelfunctions",
-        _regular_map("fermat"),
+        partial(_regular_map, "fermat"),
     ),
     NamedSurface(
         "Schwarz P surface",
         ("y^2 = x^8 + 14 x^4 + 1", "Schwarz D surface", "gyroid", "regular map {4,6} of genus 3"),
         3,
         "Gauss-Chebyshev quadrature, 15 digits",
-        _regular_map("schwarz_p"),
+        partial(_regular_map, "schwarz_p"),
     ),
     NamedSurface(
         "Bring curve",
         ("sum x_i = sum x_i^2 = sum x_i^3 = 0", "regular map {4,5} of genus 4"),
         4,
         "Braden, Northover (2012), after Riera, Rodriguez (1992)",
-        _regular_map("bring"),
+        partial(_regular_map, "bring"),
     ),
 )

@@ -38,7 +38,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import breadth_first_order
 
-from igl_periods.arrays import Ints
+from igl_periods.arrays import Ints, ReadOnlyArrays
 from igl_periods.complexes import DeltaComplex, check_surface, next_corner, of_a_surface
 from igl_periods.display import facts_html
 from igl_periods.errors import ComplexError
@@ -51,7 +51,7 @@ _LETTERS_SHOWN = 32
 
 
 @dataclass(frozen=True, eq=False)
-class FundamentalPolygon:
+class FundamentalPolygon(ReadOnlyArrays):
     """A surface cut open to a disc.
 
     Attributes

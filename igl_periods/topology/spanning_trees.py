@@ -21,20 +21,22 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import breadth_first_order, dijkstra, minimum_spanning_tree
 
-from igl_periods.arrays import Floats, Ints
+from igl_periods.arrays import Floats, Ints, ReadOnlyArrays
 from igl_periods.complexes import (
     DeltaComplex,
     check_connected,
     check_surface,
+    checked_array,
     half_edge_ends,
     index_type,
 )
 from igl_periods.display import arrays_repr
 from igl_periods.errors import ComplexError
+from igl_periods.options import checked_integer
 
 
 @dataclass(frozen=True, eq=False)
-class TreeCotree:
+class TreeCotree(ReadOnlyArrays):
     """A spanning tree of the vertices and one of the faces that do not cross.
 
     Attributes
@@ -64,6 +66,7 @@ def tree_cotree(K: DeltaComplex, root: int = 0) -> TreeCotree:
     root : int
         Vertex at which the tree starts.
     """
+    root = checked_integer("root", root)
     if not 0 <= root < K.n_vertices:
         raise ValueError(f"root = {root} is no vertex: there are {K.n_vertices}, counted from 0.")
     index = index_type(3 * K.n_faces)
@@ -117,6 +120,7 @@ def shortest_tree_cotree(
     Parameters, errors and source are those of :func:`shortest_loops`.
     """
     check_surface(K)
+    root = checked_integer("root", root)
     if not 0 <= root < K.n_vertices:
         raise ComplexError(f"there is no vertex {root}: vertices are 0 … {K.n_vertices - 1}.")
     lengths = checked_edge_lengths(K, edge_lengths)[K.edge.ravel()]
@@ -140,7 +144,10 @@ def checked_edge_lengths(K: DeltaComplex, edge_lengths: ArrayLike | None) -> Flo
         own = np.empty(K.n_edges)
         own[K.edge.ravel()] = K.lengths.ravel()
         return own
-    lengths = np.asarray(edge_lengths, dtype=np.float64)
+    given = checked_array(edge_lengths, "edge_lengths", ComplexError)
+    if given.dtype.kind not in "iuf":
+        raise ComplexError(f"edge lengths are real numbers, not {given.dtype}.")
+    lengths = given.astype(np.float64)
     if lengths.shape != (K.n_edges,):
         raise ComplexError(
             f"edge lengths must have shape ({K.n_edges},), one per edge, not {lengths.shape}."

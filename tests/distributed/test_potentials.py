@@ -4,12 +4,14 @@ import numpy as np
 import pytest
 from support.distributed_runs import SURFACES
 
+from igl_periods.periods.rounding import LEAST_ALLOWANCE
+
 
 def test_rounding_of_needles_is_allowed_for(runs, alone):
     # Only some of the ranks have extreme triangles: their loss has to reach rank 0.
-    assert alone["needles", "tight"].rounding > 1e-11
+    assert alone["needles", "tight"].rounding > 1.2 * LEAST_ALLOWANCE
     for n in (1, 2, 3):
-        assert runs(n)[0]["needles", "tight"].rounding > 1e-11
+        assert runs(n)[0]["needles", "tight"].rounding > 1.2 * LEAST_ALLOWANCE
 
 
 @pytest.mark.parametrize("n", [1, 2, 3])

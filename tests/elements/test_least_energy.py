@@ -13,13 +13,13 @@ from support.random_surfaces import random_gluing, random_lengths
 import igl_periods as ip
 from igl_periods.complexes.delaunay import intrinsic_delaunay
 from igl_periods.elements.least_energy import (
-    coefficients,
     dirichlet_matrix,
     energy_excess,
     high_order_forms,
     rounding_allowance,
 )
 from igl_periods.elements.reference_elements import conical_element, flat_element
+from igl_periods.elements.trial_forms import coefficients
 from igl_periods.harmonic.energies import dirichlet_matrix as p1_dirichlet_matrix
 from igl_periods.periods.rounding import congruence
 from igl_periods.siegel.reduction import siegel_reduce

@@ -73,7 +73,7 @@ def test_allowance_covers_the_error_of_D(name, K):
 
 
 @pytest.mark.parametrize(("n", "m", "k", "h"), [(40, 4, 18, 0.9), (200, 4, 90, 0.7)])
-def test_rounding_adds_up_over_many_flips(n, m, k, h):
+def test_rounding_of_many_flips_stays_within_the_bound(n, m, k, h):
     # The modulus follows from the lengths as they are stored, exactly: i n / (m height).
     K, b, c = sheared_strips(n, m, k, h)
     _, rounds = delaunay_flips(K)
@@ -83,7 +83,9 @@ def test_rounding_adds_up_over_many_flips(n, m, k, h):
     exact = 1j * n / (m * float(b * b - foot * foot) ** 0.5)
     pm = ip.period_matrix(K).reduced()
     error = abs(pm.matrix[0, 0] - exact) / exact.imag
-    assert 1e-13 < error <= pm.bound < 1e-6
+    assert error <= pm.bound < 1e-6
+    # Lengths are extended numbers between flips, so that little adds up.
+    assert error < 1e-7 * np.finfo(np.longdouble).eps / np.finfo(float).eps
 
 
 @pytest.mark.parametrize("n", [1, 2, 30])

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from igl_periods.complexes import check_finite, checked_positions
 from igl_periods.errors import MeshError
+from igl_periods.options import in_words
 
 from .compression import content
 from .gltf import mesh_from_gltf
@@ -46,6 +47,8 @@ def read_mesh_file(path: str | PathLike[str]) -> MeshFile:
     MeshError
         If the format is unknown, or the file is empty, truncated, or not what its extension says.
     """
+    if not isinstance(path, (str, PathLike)):
+        raise MeshError(f"a mesh is read from a path, not from {in_words(path)}.")
     file = Path(path)
     if not file.exists():
         raise FileNotFoundError(f"there is no mesh file {str(file)!r}")
