@@ -32,7 +32,7 @@ barycentres, the double.  The surface stays what it is, and the classes go along
 ``diagonals``             the other diagonal of two triangles, and its rounding
 ``delaunay``              intrinsic Delaunay flips
 ``moved_lengths``         the same triangulation with other lengths or positions
-``flip_derivatives``      new lengths by old ones
+``flipped_lengths``       new lengths by old ones
 ``midpoint_subdivision``  every face in four, or in n²
 ``barycentre_insertion``  some faces in three
 ``doubling``              the complex double
@@ -87,7 +87,7 @@ from .cochains import along_sides, primitive
 from .marked_complex import MarkedComplex
 from .delaunay import Flips, cocircularity_allowance, delaunay_flips, intrinsic_delaunay, transport
 from .moved_lengths import edge_directions, edge_lengths, with_edge_lengths, with_positions
-from .flip_derivatives import FlipDerivative, flip_derivatives, pull_back, push_forward
+from .flipped_lengths import FlipDerivative, flip_derivatives, pull_back, push_forward
 from .midpoint_subdivision import split
 from .barycentre_insertion import insert_barycentres, is_divisible
 from .doubling import Involution, double, involution, lift

@@ -101,9 +101,9 @@ class GaussNewton:
             if found is None:
                 verdict = _no_way(distance, pm.genus)
                 break
-            dx, pm, after = found
-            x = x + dx
+            dx, there, after = found
             steps.append(Step(after, self.chart.strain(pm.complex, dx)))
+            x, pm = x + dx, there
             idle = idle + 1 if after > (1.0 - _LEAST_GAIN) * distance else 0
             distance = after
             if idle == _IDLE_STEPS:

@@ -56,6 +56,13 @@ class Deformation:
     steps: tuple[Step, ...]
     verdict: str
 
+    def __repr__(self) -> str:
+        end = "reached" if self.reached else "not reached"
+        return (
+            f"Deformation: target {end}, Siegel distance {self.distance:.3g} after "
+            f"{len(self.steps)} steps\n{self.period_matrix!r}"
+        )
+
     @property
     def reached(self) -> bool:
         """Whether the distance is within the tolerance that was asked for."""

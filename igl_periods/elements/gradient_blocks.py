@@ -16,8 +16,8 @@ from dataclasses import dataclass
 from igl_periods.arrays import Complexes, Ints
 
 from .condensation import scaled_gradients
-from .least_energy import HighOrderForms, coefficients
 from .point_values import side_directions
+from .trial_forms import HighOrderForms, coefficients
 
 
 @dataclass(frozen=True, eq=False)

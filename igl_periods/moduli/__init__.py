@@ -16,7 +16,7 @@ Clebsch for genus 2, vanishing theta constants for genus 3.
 ======================  =======================================================================
 ``lattice_isometries``  integer isometries of quadratic forms, to within a tolerance
 ``equivalence``         γ with γ·Π₁ = Π₂
-``nearest_marking``     γ with γ·Π₁ near Π₂
+``marking_search``      γ with γ·Π₁ near Π₂
 ``automorphisms``       the group of γ with γ·Π = Π
 ``theta``               theta constants, and hyperellipticity
 ``genus_one``           Klein's j
@@ -40,7 +40,7 @@ from .equivalence import (
     moduli_distance,
     symplectic_isomorphisms,
 )
-from .nearest_marking import NearestMarking, nearest_marking
+from .marking_search import NearestMarking, nearest_marking
 from .automorphisms import SymplecticGroup, symplectic_automorphism_group
 from .theta import is_hyperelliptic, theta_constants, vanishing_even_characteristics
 from .genus_two import absolute_igusa_invariants, igusa_clebsch_invariants, rosenhain_roots

@@ -9,7 +9,7 @@ by all lengths, and by all positions.  So W = 1 at (k, l) asks for Re Π_kl, W =
 if f is a holomorphic function of Π with ∂f = Σ f'_kl ∂Π_kl, then W = conj(f') asks for Re f.
 
 Lengths are those of the triangulation that was given, whatever flips were made to compute Π; where
-four vertices lie on one circle, there are kinks (:mod:`igl_periods.complexes.flip_derivatives`).
+four vertices lie on one circle, there are kinks (:mod:`igl_periods.complexes.flipped_lengths`).
 With linear functions the derivative is that of the discrete Π, to rounding.  From degree 2 on it is
 Rauch's formula :math:`\int \omega_i^T (\operatorname{tr} \epsilon - 2\epsilon)\, \omega_j` with the
 forms at hand, for deformations that are linear on triangles: the derivative of the exact Π, with
@@ -31,6 +31,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from igl_periods.arrays import Complexes, Floats
 from igl_periods.complexes import DeltaComplex, edge_directions
+from igl_periods.display import arrays_repr
 from igl_periods.errors import ComplexError
 from igl_periods.symplectic import EstimateDerivative
 
@@ -52,6 +53,8 @@ class Gradient:
     lengths: Floats
     vertices: Floats | None
 
+    __repr__ = arrays_repr
+
 
 @dataclass(frozen=True, eq=False)
 class EntryCovariance:
@@ -64,6 +67,8 @@ class EntryCovariance:
     """
 
     covariance: Floats
+
+    __repr__ = arrays_repr
 
     @property
     def standard_deviations(self) -> Complexes:

@@ -3,7 +3,7 @@ r"""The forms whose energies make a period matrix, kept so that their energies c
     lengths ─ flips ▶ lengths of the Delaunay triangulation ─ Rauch ▶ ∂D ─ symplectic mean ▶ ∂Π
 
 Each arrow is linear, forward and backward, and nothing is solved: harmonic forms are stationary
-points of their energies.  The first arrow is :mod:`igl_periods.complexes.flip_derivatives`, the
+points of their energies.  The first arrow is :mod:`igl_periods.complexes.flipped_lengths`, the
 second :mod:`igl_periods.harmonic.length_derivatives`, the third
 :mod:`igl_periods.symplectic.estimate_derivatives`.
 
@@ -31,6 +31,7 @@ from igl_periods.complexes import (
     push_forward,
     transport,
 )
+from igl_periods.display import arrays_repr
 from igl_periods.elements import HighOrderGradients, high_order_forms, separate_cones
 from igl_periods.errors import ComplexError
 from igl_periods.harmonic import (
@@ -77,6 +78,8 @@ class SolvedForms:
     gradients: GradientBlocks
     parts: int
     basis: Ints
+
+    __repr__ = arrays_repr
 
     def in_basis(self, U: Ints) -> SolvedForms:
         """The forms U ω instead of ω."""

@@ -39,6 +39,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from igl_periods.arrays import Floats, Ints
+from igl_periods.display import arrays_repr
 
 from .delaunay import Flips
 from .delta_complex import DeltaComplex
@@ -64,6 +65,8 @@ class FlipDerivative:
     edge: Ints
     sides: Ints
     partial: Floats
+
+    __repr__ = arrays_repr
 
 
 def flip_derivatives(K: DeltaComplex, rounds: list[Flips]) -> list[FlipDerivative]:
