@@ -22,17 +22,18 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
-from igl_periods.arrays import Ints
-from igl_periods.complexes import DeltaComplex, ExactLengths
+from igl_periods.arrays import Floats, Ints
+from igl_periods.complexes import DeltaComplex, ExactLengths, MarkedComplex
 from igl_periods.errors import ComplexError, MemoryLimitError
 from igl_periods.machine import available_memory
 from igl_periods.periods import ToleranceWarning
+from igl_periods.proofs import orthonormal_combination
 from igl_periods.run_log import logger, stage
 from igl_periods.topology import cochains_and_basis
 
 from .cells import Cells, cells_of
 from .conforming_forms import dirichlet_enclosure
-from .degrees import first_sizes, next_sizes, node_counts, stage_goals
+from .degrees import first_sizes, next_goal, next_sizes, node_counts
 from .delaunay_moves import improve_shapes, make_delaunay
 from .enclosure import PeriodEnclosure
 from .exact_lengths import checked_balls
@@ -44,6 +45,7 @@ from .refinement import Refined, precision_of, refined
 from .surface_choice import surface_and_lengths
 from .trial_functions import trial_functions
 from .triangulation import Triangulation
+from .upper_energies import canonical_in_forms, linear_upper_energies, upper_energies
 
 MOST_DIGITS = 1000
 """More digits than this are refused: they would take days."""
@@ -51,21 +53,17 @@ MOST_DIGITS = 1000
 # Bits of the working precision that shapes need not have.
 _GUARD_BITS = 48
 _MOST_BITS = 100_000
-# Digits by which jumps are to be smaller than 10^(−digits/2).
-_MARGIN, _MARGIN_BY_SIZE = 0.4, 0.15
-# Expected digits beyond those that are wanted with which a proof is tried.
-_RESERVE = 0.5
+# Digits beyond those that are wanted which series are made for, and with which a proof is tried.
+_RESERVE, _LEAST_RESERVE = 0.3, 0.0
 # Digits by which quadrature is to be more accurate than the result.
 _QUADRATURE_DIGITS = 8
 # So many digits, at most, are tried in double precision; radii of energies by which they would be
 # wrong are negligible if they are this much smaller.
-_DIGITS_IN_FLOATS, _NEGLIGIBLE = 13, 0.05
+_DIGITS_IN_FLOATS, _NEGLIGIBLE = 13, 0.2
 _STALLED = "more trial functions do not help"
 _LOG_10 = float(np.log(10.0))
 # Triangles with a circumradius above so many shortest sides are divided.
 _RATIO, _RATIO_FOR_FEW_DIGITS = 1.6, 4.0
-# A stage that reaches less than this part of its goal is repeated, so often at most.
-_NEARLY, _MOST_REPETITIONS = 0.75, 3
 # Seconds grow with this power of the number of unknowns, for estimates; entries of the Cholesky
 # factor over those of the normal equations.
 _COST_EXPONENT, _FILL = 2.5, 5.0
@@ -134,16 +132,22 @@ def enclose(
     if cochains.shape[0] == 0:
         return PeriodEnclosure(flint.arb_mat(0, 0), cochains, K, precision_of(digits))
     with stage("stars and faces"):
-        triangulation, cells, bits = _cut(K, lengths, cochains, digits)
+        triangulation, cells = _cut(K, lengths, cochains, digits)
     marking = csr_array(csr_array(T.astype(np.int64)) @ cochains)
-    basis = flint.arb_mat(T.astype(np.int64).tolist())
 
     def prove(solution: Refined) -> PeriodEnclosure:
-        with stage("energies in balls"), flint.ctx.workprec(bits):
-            D = basis * _energies(triangulation, solution, digits) * basis.transpose()
-        return PeriodEnclosure(D, marking, K, bits)
+        with stage("energies in balls"), flint.ctx.workprec(precision_of(digits)):
+            D = _energies(triangulation, solution, T.astype(np.int64), digits)
+        return PeriodEnclosure(D, marking, K, precision_of(digits))
+
+    def prove_less() -> PeriodEnclosure:
+        with stage("forms that are linear on triangles"), flint.ctx.workprec(precision_of(digits)):
+            D = linear_upper_energies(MarkedComplex(K, cochains, T), lengths)
+        return PeriodEnclosure(D, marking, K, precision_of(digits))
 
     best, reason = _best_enclosure(cells, prove, digits, limits)
+    if best is None:
+        best = prove_less()
     if best.digits < digits:
         warnings.warn(
             f"{best.digits} digits are proved, {digits} were asked for: {reason}.",
@@ -155,9 +159,11 @@ def enclose(
 
 def _cut(
     K: DeltaComplex, lengths: ExactLengths, cochains: csr_array, digits: int
-) -> tuple[Triangulation, Cells, int]:
-    """The cells of a good triangulation, and a precision at which they are known well enough."""
-    bits = precision_of(digits)
+) -> tuple[Triangulation, Cells]:
+    """The cells of a good triangulation, known well enough."""
+    # Where coefficients of series are large, as many bits again may cancel.
+    wanted = 2 * precision_of(digits)
+    bits = wanted
     while True:
         with flint.ctx.workprec(bits):
             triangulation = Triangulation.of(K, checked_balls(lengths, K, bits), cochains)
@@ -165,9 +171,9 @@ def _cut(
             few = digits <= _DIGITS_IN_FLOATS
             improve_shapes(triangulation, _RATIO_FOR_FEW_DIGITS if few else _RATIO)
             cells = cells_of(triangulation)
-        missing = precision_of(digits) - _GUARD_BITS - cells.accuracy_in_bits()
+        missing = wanted - _GUARD_BITS - cells.accuracy_in_bits()
         if missing <= 0:
-            return triangulation, cells, bits
+            return triangulation, cells
         if 2 * bits > _MOST_BITS:
             raise ComplexError(
                 f"with {bits} bits the shape of a cell is known to {cells.accuracy_in_bits()} bits "
@@ -178,55 +184,59 @@ def _cut(
 
 def _best_enclosure(
     cells: Cells, prove: Callable[[Refined], PeriodEnclosure], digits: int, limits: _Limits
-) -> tuple[PeriodEnclosure, str]:
-    """Solve in stages and prove; again with a higher goal as long as digits are missing."""
-    # Energies add up the squares of the jumps of all cells.
-    margin = _MARGIN + _MARGIN_BY_SIZE * np.log10(cells.n_cells)
-    goals = stage_goals(0.5 * digits + margin)
-    size = first_sizes(cells, goals[0])
+) -> tuple[PeriodEnclosure | None, str]:
+    """Solve in stages and prove; again with a higher goal as long as digits are missing.
+
+    The result is the best that was proved, None if that is nothing, and why it is not better.
+    """
+    # Energies add up the squares of the jumps on all segments, about a tenth of the largest ones.
+    margin = 0.5 * float(np.log10(max(cells.n_interfaces / 10.0, 1.0)))
+    final = 0.5 * (digits + _RESERVE) + margin
+    goal = next_goal(0.0, final)
+    size = first_sizes(cells, goal)
     best: PeriodEnclosure | None = None
     closest: Refined | None = None
-    repeated = 0
     limits.check_memory(cells, size)
     while True:
-        goal = goals.pop(0)
         with stage(f"series for jumps of 1e-{goal:.1f}"):
             solution = limits.timed(partial(_solution, cells, size, goal), size)
-        logger.info(
-            "jumps of 1e%.1f with %d functions, about %.1f digits",
-            solution.residual,
-            size.sum(),
-            solution.expected_digits,
-        )
-        if closest is None or solution.residual < closest.residual:
-            closest = solution
-        stalled = solution is not closest
         expected = solution.expected_digits
-        if stalled or expected > digits + _RESERVE:
-            goals = []
-        nearly = -solution.residual > _NEARLY * goal if goals else expected > digits - _RESERVE
-        if not nearly and not stalled and repeated < _MOST_REPETITIONS:
-            missing = 0.0 if goals else max(digits - expected, 0.0)
-            goals.insert(0, goal + 0.5 * missing)
-            repeated += 1
-        size = next_sizes(cells, solution.sizes, solution.jumps, goals[0] if goals else goal)
-        reason = _STALLED if stalled else limits.exceeded_by(cells, size)
-        if goals and not reason:
-            continue
-        found = prove(closest)
+        logger.info("%d functions, about %.1f digits", size.sum(), expected)
+        stalled = closest is not None and expected <= closest.expected_digits
+        closest = solution if not stalled else closest
+        assert closest is not None
+        reason = _STALLED if stalled else ""
+        if not stalled and expected < digits + _LEAST_RESERVE:
+            goal, size = _larger(cells, solution, goal, final, 0.5 * expected + margin)
+            reason = limits.exceeded_by(cells, size)
+            if not reason:
+                continue
+        try:
+            found = prove(closest)
+            proved = _proved(found)
+        except ComplexError as error:
+            return best, f"nothing more can be proved ({error})"
         gained = best is None or found.bound < best.bound
         best = found if gained else best
-        assert best is not None
-        if best.digits >= digits:
+        if proved >= digits:
             return best, ""
         if reason or not gained:
             return best, reason or _STALLED
-        missing = digits - _proved(found)
-        goals = [goal + 0.5 * missing + 0.5 * _MARGIN]
-        size = next_sizes(cells, solution.sizes, solution.jumps, goals[0])
+        logger.info("%.2f digits proved", proved)
+        final += 0.5 * (digits - proved + _RESERVE)
+        goal, size = _larger(cells, solution, goal, final, 0.5 * proved + margin)
         reason = limits.exceeded_by(cells, size)
         if reason:
             return best, reason
+
+
+def _larger(
+    cells: Cells, solution: Refined, goal: float, final: float, reached: float
+) -> tuple[float, Ints]:
+    """The next goal, and the numbers of functions that it probably takes."""
+    # What was asked for in vain is not asked for again.
+    following = max(next_goal(reached, final), min(goal, final) + 0.5 * max(goal - reached, 0.0))
+    return following, next_sizes(cells, solution.sizes, solution.jumps, following)
 
 
 def _solution(cells: Cells, size: Ints, goal: float) -> Refined:
@@ -235,26 +245,42 @@ def _solution(cells: Cells, size: Ints, goal: float) -> Refined:
     return refined(problem, goal)
 
 
-def _energies(surface: Triangulation, solution: Refined, digits: int) -> flint.arb_mat:
-    """Energies in balls: in double precision where few digits are wanted and it can give them."""
-    cells = solution.problem.trial.nodes.cells
+def _energies(surface: Triangulation, solution: Refined, basis: Ints, digits: int) -> flint.arb_mat:
+    """Upper bounds of energies: in double precision where few digits are wanted."""
     accuracy = digits + _QUADRATURE_DIGITS
     if digits <= _DIGITS_IN_FLOATS:
-        coefficients = coefficients_in_floats(solution.problem.trial, solution.newton)
         try:
-            raw = float_dirichlet_enclosure(surface, cells, coefficients, -_LOG_10 * accuracy)
+            E, W = _energies_in_floats(surface, solution, -_LOG_10 * accuracy)
         except ComplexError as error:
             logger.info("not in double precision: %s", error)
         else:
-            radius = max(float(x.rad()) for x in raw.entries())
-            if radius < _NEGLIGIBLE * 10.0**-digits:
-                return raw
+            radius = max(float(x.rad()) for x in E.entries())
+            if radius * E.nrows() < _NEGLIGIBLE * 10.0**-digits:
+                return upper_energies(E, canonical_in_forms(basis, W))
             logger.info("double precision leaves energies unknown by %.2g", radius)
-    return dirichlet_enclosure(surface, solution.series, -_LOG_10 * accuracy)
+    with flint.ctx.workprec(precision_of(digits) + solution.series.excess_bits):
+        E = dirichlet_enclosure(surface, solution.series, -_LOG_10 * accuracy)
+    return upper_energies(E, flint.arb_mat(basis.tolist()))
+
+
+def _energies_in_floats(
+    surface: Triangulation, solution: Refined, accuracy: float
+) -> tuple[flint.arb_mat, Floats]:
+    """Energies of nearly orthonormal forms, in classes W c, and W."""
+    trial = solution.problem.trial
+    cells = trial.nodes.cells
+    W = orthonormal_combination(solution.approximate_energies(), csr_array(cells.jumps))
+    newton = [a @ W.T for a in solution.newton]
+    coefficients = coefficients_in_floats(trial, newton)
+    return float_dirichlet_enclosure(surface, cells, coefficients, accuracy, W), W
 
 
 def _proved(found: PeriodEnclosure) -> float:
-    """Proved digits, with fractions, also where they are negative."""
+    """Proved digits, with fractions; nothing is proved where they are negative."""
+    if found.bound == 0:
+        return float(found.digits)
+    if not found.bound < 1:
+        raise ComplexError("the energies are known too badly for a period matrix.")
     with flint.ctx.workprec(64):
         return -float(found.bound.log().mid()) / _LOG_10
 

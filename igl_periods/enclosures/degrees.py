@@ -4,7 +4,7 @@ On every cell the coefficients of the Newton basis fall geometrically, |a_k| ≈
 that depends on where the next singularities lie.  The rate is read off the envelope of the
 coefficients that have been computed, above the residual, below which they mean nothing.  As
 extrapolation is safe over short ranges only, goals are approached in stages, each at most 2.2 times
-as many digits as the one before.
+as many digits as the one before has reached.
 """
 
 from __future__ import annotations
@@ -23,17 +23,18 @@ _FIRST_RADIAL = 2.2
 # Decimal digits for each unit of the radial degree: where nothing is known, at least, at most.
 _RATE, _SLOWEST, _FASTEST = 0.3, 0.04, 1.2
 _MARGIN = 0.3
+# The radial degree at which a rate is to be believed by half.
+_SLOWER = 4.0
 # Logarithms of sizes that are about the same; and how much larger than its last coefficient a jump
 # may be that is laid to a cell.
 _DOUBT, _MOST_BLAME = 0.5, 2.0
 
 
-def stage_goals(goal: float) -> list[float]:
-    """Digits of the residual to be reached one after the other; the last one is ``goal``."""
-    goals = [goal]
-    while goals[0] > _FIRST_GOAL:
-        goals.insert(0, goals[0] / _GROWTH)
-    return goals
+def next_goal(reached: float, goal: float) -> float:
+    """Digits of the jumps to try next, on the way to a goal; ``reached`` are known."""
+    start = max(reached, _FIRST_GOAL / _GROWTH)
+    n_stages = np.ceil(np.log(max(goal / start, 1.0)) / np.log(_GROWTH))
+    return float(goal if n_stages <= 1 else start * (goal / start) ** (1.0 / n_stages))
 
 
 def first_sizes(cells: Cells, goal: float) -> Ints:
@@ -81,6 +82,8 @@ def _decay(a: Floats, kappa: float, residual: float) -> tuple[int, float, float]
     last = int(known[-1])
     first = last // 2
     rate = (envelope[first] - envelope[last]) / (last - first) if last > first else _RATE * kappa
+    # The decrease becomes slower with k: weak singularities are not felt in the beginning.
+    rate /= 1.0 + _SLOWER / (kappa * last + 1.0)
     return last + 1, float(envelope[last]), float(np.clip(rate, _SLOWEST * kappa, _FASTEST * kappa))
 
 

@@ -14,7 +14,7 @@ from collections import deque
 import flint
 import numpy as np
 
-from igl_periods.arrays import Floats
+from igl_periods.arrays import Floats, Ints
 from igl_periods.complexes import cotangents
 
 from .triangulation import Triangulation, following
@@ -77,10 +77,11 @@ def fan(surface: Triangulation, corner: int) -> list[int]:
 def improve_shapes(surface: Triangulation, largest_ratio: float) -> int:
     """Put flat vertices into badly shaped triangles, and flip edges; in place.
 
-    A triangle is bad if its circumradius is larger than ``largest_ratio`` times its shortest side.
-    It gets a vertex at its circumcentre, or where that lies outside close to the middle of its
-    longest side, which Delaunay flips then replace.  A small angle at a vertex of small total angle
-    is there to stay.
+    A triangle is bad if its circumradius is larger than ``largest_ratio`` times the shortest edge
+    at any of its corners, half of which is the size of the star there: beside a small star only
+    small faces have series that converge fast.  It gets a vertex at its circumcentre, or where that
+    lies outside close to the middle of its longest side, which Delaunay flips then replace.  A
+    small angle at a vertex of small total angle is there to stay.
 
     Returns
     -------
@@ -91,11 +92,10 @@ def improve_shapes(surface: Triangulation, largest_ratio: float) -> int:
     for inserted in range(most):
         lengths = surface.lengths_in_floats()
         angle = _angles(lengths)
-        shortest = lengths.min(axis=1)
+        corner_vertex = np.array(surface.corner_vertex).reshape(-1, 3)
+        shortest = _shortest_at_vertices(lengths, corner_vertex)[corner_vertex].min(axis=1)
         ratio = lengths.max(axis=1) / (2.0 * np.sin(angle.max(axis=1)) * shortest)
-        sharpest = np.array(surface.corner_vertex).reshape(-1, 3)[
-            np.arange(len(angle)), angle.argmin(axis=1)
-        ]
+        sharpest = corner_vertex[np.arange(len(angle)), angle.argmin(axis=1)]
         total = np.bincount(surface.corner_vertex, angle.ravel(), surface.n_vertices)
         ratio[total[sharpest] < _SMALL_TOTAL] = 0.0
         worst = int(ratio.argmax())
@@ -105,6 +105,15 @@ def improve_shapes(surface: Triangulation, largest_ratio: float) -> int:
         surface.insert(worst, _place(angle[worst], lengths[worst]))
         make_delaunay(surface, [3 * worst, first, first + 3])
     return most
+
+
+def _shortest_at_vertices(lengths: Floats, corner_vertex: Ints) -> Floats:
+    """The length of the shortest edge at each vertex."""
+    shortest = np.full(int(corner_vertex.max()) + 1, np.inf)
+    for side in range(3):
+        for end in (1, 2):
+            np.minimum.at(shortest, corner_vertex[:, (side + end) % 3], lengths[:, side])
+    return shortest
 
 
 def _place(angle: Floats, lengths: Floats) -> tuple[flint.fmpq, flint.fmpq, flint.fmpq]:

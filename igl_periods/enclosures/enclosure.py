@@ -50,12 +50,13 @@ class PeriodEnclosure:
     Attributes
     ----------
     dirichlet : (2g, 2g) arb_mat
-        Energies of closed forms in the classes of ``cocycles``, in balls.
+        Energies of closed forms in the classes of ``cocycles``, in balls, or upper bounds of them
+        in the sense of Loewner; neither is below the exact energies.
     cocycles : (2g, n_edges) sparse int
         The marking: closed cochains α_1..α_g, β_1..β_g on the edges of ``complex``, the same as
         those of ``period_matrix(complex)``.
     complex : DeltaComplex
-        The surface as it was given.
+        The surface as it was given, with ``exact_lengths`` if these are not the stored ones.
     bits : int
         The precision that ``dirichlet`` was computed with.
     """
@@ -179,7 +180,11 @@ class PeriodEnclosure:
         )
 
     def to_json(self) -> dict[str, Any]:
-        """A document of decimal strings, each of which is a proved enclosure."""
+        """A document of decimal strings, each of which is a proved enclosure.
+
+        ``surface["meant"]`` says which surface the proof is about: the one whose lengths are the
+        doubles in ``lengths``, or one whose exact lengths lie in the balls of ``exact_lengths``.
+        """
         cocycles = self.cocycles.tocoo()
         digits = int(_DIGITS_PER_BIT * self.bits) + 1
         return {
@@ -194,10 +199,7 @@ class PeriodEnclosure:
                 "imag": _texts(self.matrix.imag, self.digits + 3),
             },
             "dirichlet": _texts(self.dirichlet, digits),
-            "surface": {
-                "lengths": self.complex.lengths.tolist(),
-                "twin": self.complex.twin.tolist(),
-            },
+            "surface": self._surface(),
             "cocycles": {
                 "row": cocycles.row.tolist(),
                 "edge": cocycles.col.tolist(),
@@ -205,9 +207,27 @@ class PeriodEnclosure:
             },
         }
 
+    def _surface(self) -> dict[str, Any]:
+        """The gluing, and which lengths are meant."""
+        K = self.complex
+        surface = {"twin": K.twin.tolist(), "lengths": K.lengths.tolist()}
+        if K.exact_lengths is None or K.mollification > 0.0:
+            return {**surface, "meant": "the lengths, exactly as these doubles are"}
+        with flint.ctx.workprec(self.bits):
+            balls = list(K.exact_lengths(self.bits))
+        digits = int(_DIGITS_PER_BIT * self.bits) + 1
+        return {
+            **surface,
+            "meant": "the exact lengths, one in each ball; the doubles are those rounded",
+            "edge": K.edge.tolist(),
+            "exact_lengths": [ball_in_text(x, digits) for x in balls],
+        }
+
     @classmethod
     def from_json(cls, document: Mapping[str, Any] | str) -> PeriodEnclosure:
         """Read such a document, or its text; its balls contain those that were written.
+
+        Exact lengths are no longer functions of the precision then, and are left in the document.
 
         Raises
         ------

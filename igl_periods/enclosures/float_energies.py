@@ -47,7 +47,11 @@ _LEAST_HEIGHT = 1e-5
 
 
 def float_dirichlet_enclosure(
-    surface: Triangulation, cells: Cells, coefficients: list[Complexes], accuracy: float
+    surface: Triangulation,
+    cells: Cells,
+    coefficients: list[Complexes],
+    accuracy: float,
+    combination: Floats | None = None,
 ) -> flint.arb_mat:
     """The energies of the conforming forms, in balls; (k, k).
 
@@ -60,6 +64,9 @@ def float_dirichlet_enclosure(
         Power series on each cell, exact.
     accuracy : float
         The natural logarithm of the error of a quadrature that does not matter.
+    combination : (k, k) float, optional
+        W: the forms are in the classes W c of the cochains c; sums of integer multiples of entries
+        of one row are exact.  The identity by default.
 
     Raises
     ------
@@ -67,7 +74,9 @@ def float_dirichlet_enclosure(
         If angles or shapes are too extreme for double precision.
     """
     check_arithmetic()
-    energies = _Energies(surface, cells, coefficients, accuracy)
+    jumps = cells.jumps.astype(np.float64)
+    jumps = jumps if combination is None else jumps @ combination.T
+    energies = _Energies(surface, cells, coefficients, jumps, accuracy)
     D = energies.total()
     rows = zip(D.mid.tolist(), D.rad.tolist())
     return flint.arb_mat([[flint.arb(m, r) for m, r in zip(*row)] for row in rows])
@@ -87,9 +96,10 @@ class _Energies:
         surface: Triangulation,
         cells: Cells,
         coefficients: list[Complexes],
+        jumps: Floats,
         accuracy: float,
     ) -> None:
-        self.cells, self.coefficients = cells, coefficients
+        self.cells, self.coefficients, self.jumps = cells, coefficients, jumps
         self.k = coefficients[0].shape[1]
         self.constants = np.array([c[0].real for c in coefficients])
         self.bounds = _ChordBounds(cells, coefficients)
@@ -164,7 +174,7 @@ class _Energies:
         first, second = (
             Balls.exact(self.constants[self.cells.cell[interfaces, side]]) for side in range(2)
         )
-        return first - second - Balls.exact(self.cells.jumps[interfaces].astype(np.float64))
+        return first - second - Balls.exact(self.jumps[interfaces])
 
     def _nodes(self, counts: Ints) -> tuple[LongFloats, Balls, Balls]:
         """t, s and the weights of the rows of segments with so many nodes; balls (rows, 1)."""

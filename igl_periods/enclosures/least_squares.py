@@ -131,14 +131,17 @@ def _products(
     values: Complexes, slopes: Complexes, others: Complexes, other_slopes: Complexes
 ) -> Floats:
     """AᵀB of the real columns Re a_0, Re a_k, …, Im a_k, … of two sets of functions."""
-    A, B = _columns(values), _columns(others)
-    C = slopes.conj().T @ other_slopes
-    rotation = np.block([[C.real, -C.imag[:, 1:]], [C.imag[1:], C.real[1:, 1:]]])
-    return np.asarray(A.T @ B + rotation, dtype=np.float64)
-
-
-def _columns(values: Complexes) -> Floats:
-    return np.concatenate([values.real, -values.imag[:, 1:]], axis=1)
+    product = np.empty((2 * values.shape[1] - 1, 2 * others.shape[1] - 1))
+    K, L = values.shape[1], others.shape[1]
+    # As real numbers: Re u·Re v and the other three, from one product of matrices each.
+    here = np.concatenate([values.real, values.imag], axis=1)
+    there = np.concatenate([others.real, others.imag], axis=1)
+    P, C = here.T @ there, slopes.conj().T @ other_slopes
+    product[:K, :L] = P[:K, :L] + C.real
+    product[:K, L:] = -P[:K, L + 1 :] - C.imag[:, 1:]
+    product[K:, :L] = -P[K + 1 :, :L] + C.imag[1:]
+    product[K:, L:] = P[K + 1 :, L + 1 :] + C.real[1:, 1:]
+    return product
 
 
 def _real(a: Complexes) -> Floats:

@@ -22,7 +22,7 @@ from igl_periods.arrays import Complexes, Floats
 
 from .interface_nodes import InterfaceNodes, gauss_nodes
 from .least_squares import LeastSquares
-from .series import PowerTables, Series, face_trace, star_traces
+from .series import PowerTables, Series, excess_bits, exponent_of, face_trace, star_traces
 from .trial_functions import TrialFunctions
 
 Acb = flint.acb
@@ -72,6 +72,21 @@ class Refined:
         total = np.sum(10.0 ** (2.0 * (self.jumps - self.residual) - 1.0))
         return -float(np.log10(total)) - 2.0 * self.residual
 
+    def approximate_energies(self) -> Floats:
+        """The energies of the forms in double precision, from jumps of potentials and fluxes.
+
+        A harmonic u has ∫ |∇u|² = Σ J ∫ ∂_n u over the interfaces, ∂_n seen from the first side.
+        """
+        trial = self.problem.trial
+        nodes = trial.nodes
+        flux = np.concatenate([(phi @ a).imag for phi, a in zip(trial.slopes, self.newton)])
+        first = nodes.side_of_row % 2 == 0
+        total = np.zeros(nodes.cells.jumps.shape)
+        weighted = nodes.weight[first, None] * flux[first]
+        np.add.at(total, nodes.side_of_row[first] // 2, weighted)
+        D = nodes.cells.jumps.T @ total
+        return np.asarray(0.5 * (D + D.T), dtype=np.float64)
+
     @property
     def sizes(self) -> list[Floats]:
         """Sizes of the coefficients of the Newton basis of each cell, largest over all forms."""
@@ -110,7 +125,7 @@ def refined(problem: LeastSquares, goal: float) -> Refined:
         if level <= -goal or gain > _LEAST_GAIN or done:
             return best
         series = expansion.added(series, update, exponent)
-        with flint.ctx.workprec(precision_of(-level + _GAIN)):
+        with flint.ctx.workprec(precision_of(-level + _GAIN) + series.excess_bits):
             exponent, values, slopes = _residual(nodes, series, tables)
 
 
@@ -169,7 +184,7 @@ def _residual(
         other = face_trace(series.on_segment(i, 1), tables, n_nodes[i], 1)
         defects[i] = _defect(series, tables, i, n_nodes[i], other)
     exponent = max(
-        (_exponent(x) for defect in defects for x in defect.entries()),  # type: ignore[union-attr]
+        (exponent_of(x) for defect in defects for x in defect.entries()),  # type: ignore[union-attr]
         default=0,
     )
     scale = flint.arb(flint.fmpz(1)) / flint.arb(2) ** exponent
@@ -199,11 +214,6 @@ def _defect(
     return flint.arb_mat(rows)
 
 
-def _exponent(x: flint.arb) -> int:
-    mantissa, exponent = x.mid().man_exp()
-    return int(exponent) + abs(int(mantissa)).bit_length() if mantissa else -(10**9)
-
-
 class Expansion:
     """From coefficients of Newton bases to those of power series.
 
@@ -226,7 +236,8 @@ class Expansion:
         found = []
         for cell, a in enumerate(update):
             forms = [self._expanded(cell, column) for column in a.T.tolist()]
-            with flint.ctx.workprec(self.bits):
+            # Coefficients may be large and cancel each other; errors are to be small as they are.
+            with flint.ctx.workprec(self.bits + max(0, exponent + excess_bits(forms))):
                 if series is None:
                     found.append([[(c * scale).mid() for c in form] for form in forms])
                     continue

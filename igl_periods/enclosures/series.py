@@ -20,6 +20,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import flint
 
@@ -54,6 +55,15 @@ class Series:
         """Number of forms."""
         return self.cells.jumps.shape[1]
 
+    @cached_property
+    def excess_bits(self) -> int:
+        """Bits by which coefficients are larger than the functions: they cancel each other.
+
+        Where a vertex is closer to the origin of a cell than the farthest corner of the cell is,
+        the coefficients grow with k.  Whoever evaluates a series needs so many bits more.
+        """
+        return max(0, *(excess_bits(forms) for forms in self.coefficients))
+
     def length(self, cell: int) -> int:
         """The number K of coefficients on a cell."""
         return len(self.coefficients[cell][0])
@@ -68,6 +78,18 @@ class Series:
         size = 2 * Arb(float(cells.scale[cell]))
         line = flint.acb_poly([(a + b) / size, (b - a) / size])
         return [flint.acb_poly(c)(line) for c in self.coefficients[cell]]
+
+
+def excess_bits(forms: list[list[Acb]]) -> int:
+    """Bits of the largest coefficient before the point."""
+    parts = (x for form in forms for c in form for x in (c.real, c.imag))
+    return max((exponent_of(x) for x in parts), default=0)
+
+
+def exponent_of(x: Arb) -> int:
+    """The least e with |midpoint| < 2^e; very small for 0."""
+    mantissa, exponent = x.mid().man_exp()
+    return int(exponent) + int(mantissa).bit_length() if mantissa else -(10**9)
 
 
 class PowerTables:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -27,9 +28,13 @@ def surface_and_lengths(
         positions = K.positions if not isinstance(surface, DeltaComplex) else None
         if positions is None or K.mollification > 0.0:
             return K, lengths_of(K)
-        return K, distances(_all_rows(positions, K), K)
-    K = as_complex(positions.astype(np.float64), F)
-    return K, lengths_of(K) if K.mollification > 0.0 else distances(positions, K)
+        positions = _all_rows(positions, K)
+    else:
+        K = as_complex(positions.astype(np.float64), F)
+        if K.mollification > 0.0:
+            return K, lengths_of(K)
+    exact = distances(positions, K)
+    return replace(K, exact_lengths=exact), exact
 
 
 def _exact_positions(V: Any) -> NDArray[Any] | None:

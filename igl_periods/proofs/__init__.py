@@ -34,7 +34,7 @@ Higham, "Accuracy and stability of numerical algorithms" (2002), chapter 3.
 
 from .midpoint_radius import UNIT, Balls, check_arithmetic, norms, total
 from .siegel_radius import relative_radius
-from .proved_energies import ProvedEnergies
+from .proved_energies import ProvedEnergies, orthonormal_combination
 from .surface_proofs import (
     EnclosedProblem,
     EnclosedTriangulation,
@@ -51,6 +51,7 @@ __all__ = [
     "total",
     "relative_radius",
     "ProvedEnergies",
+    "orthonormal_combination",
     "EnclosedProblem",
     "EnclosedTriangulation",
     "high_order_proof",

@@ -10,11 +10,10 @@ from support.random_surfaces import torus_of_revolution
 
 import igl_periods as ip
 from igl_periods.machine import EXTRAS, missing_library, require
-from igl_periods.meshes.formats.read import read_mesh_file
 from igl_periods.pictures import plain_scene, render, save, with_legend, write_obj
 from igl_periods.reports import write_report
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 LAWSON = ROOT / "data" / "lawson_2_1.off"
 BROUGHT = {package for packages in EXTRAS.values() for package in packages}
 # What a package is called in an import and in an installation.
@@ -85,9 +84,6 @@ def doors(tmp_path):
     """What needs an extra, from Python: its packages, its extra, a call."""
     pm = ip.period_matrix(*torus_of_revolution(2.0, 0.7, 8, 6))
     scene = plain_scene(pm.complex)
-    glb = tmp_path / "mesh.glb"
-    glb.write_bytes(b"glTF")
-
     return {
         "render": (("open3d",), "pictures", lambda: render(scene, (8, 6))),
         "legend": (("PIL",), "pictures", lambda: with_legend(scene.V, scene)),
@@ -102,11 +98,10 @@ def doors(tmp_path):
             "pictures",
             lambda: write_obj(tmp_path / "t.obj", ip.parametrize(pm, [1.0])),
         ),
-        "read": (("open3d",), "pictures", lambda: read_mesh_file(glb)),
     }
 
 
-@pytest.mark.parametrize("door", ["render", "legend", "save", "report", "texture", "read"])
+@pytest.mark.parametrize("door", ["render", "legend", "save", "report", "texture"])
 def test_every_door_names_its_extra(monkeypatch, tmp_path, door):
     packages, extra, call = doors(tmp_path)[door]
     without(monkeypatch, *packages)
@@ -130,13 +125,11 @@ def test_the_package_of_batches_names_its_extra(tmp_path):
         (("view", LAWSON), "open3d", "pictures"),
         (("report", LAWSON, "-o", "r.html"), "matplotlib", "pictures"),
         (("texture", LAWSON, "-o", "t.glb"), "PIL", "pictures"),
-        (("compute", "mesh.glb"), "open3d", "pictures"),
         (("batch", LAWSON, "-o", "b.parquet"), "pyarrow", "batch"),
         (("batch", LAWSON, "-o", "b.parquet"), "tqdm", "batch"),
     ],
 )
 def test_every_command_names_its_extra_in_one_line(tmp_path, arguments, missing, extra):
-    (tmp_path / "mesh.glb").write_bytes(b"glTF")
     words = [str(argument) for argument in arguments]
     program = f"import igl_periods.cli; sys.exit(igl_periods.cli.main({words!r}))"
     done = run_without([missing], program, tmp_path)
