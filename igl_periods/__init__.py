@@ -23,6 +23,7 @@ page.  In reading order:
 ``siegel``         Π → γ·Π reduced
 ``moduli``         Π₁, Π₂ → equivalence, symmetries, invariants
 ``forms``          the discrete theory of the paper on Λ = Γ ⊕ Γ*
+``deformations``   Π* → a surface that has it
 ``differentials``  Π on the mesh → holomorphic forms, parametrization, Abel–Jacobi
 ``domains``        domains with holes → capacities and extremal lengths
 ``surfaces``       reference surfaces, their exact Π, and which of them a Π is
@@ -74,7 +75,10 @@ from .enclosures import PeriodEnclosure, enclose
 from .siegel import (
     SIEGEL_GENUS_LIMIT,
     SiegelReduction,
+    moduli_path,
     siegel_distance,
+    siegel_exponential,
+    siegel_logarithm,
     siegel_reduce,
     siegel_transform,
     to_flint,
@@ -82,14 +86,18 @@ from .siegel import (
 from .moduli import (
     Isomorphisms,
     SymplecticGroup,
+    hyperelliptic_point,
     is_hyperelliptic,
+    j_derivative,
     j_invariant,
     moduli_distance,
+    nearest_marking,
     recognise_entries,
     recognise_quadratic,
     symplectic_automorphism_group,
     symplectic_isomorphisms,
     theta_constants,
+    theta_derivatives,
 )
 from .forms import (
     DoubleGraph,
@@ -113,6 +121,15 @@ from .domains import (
     capacity_matrix,
     enclosed_capacities,
     extremal_length,
+)
+from .deformations import (
+    Deformation,
+    DeformationWarning,
+    deform_along,
+    deform_to,
+    lengths_along,
+    lengths_with,
+    smooth_functions,
 )
 from .surfaces import Identification, catalogue, identify
 
@@ -157,6 +174,9 @@ __all__ = [
     "siegel_reduce",
     "siegel_transform",
     "siegel_distance",
+    "siegel_logarithm",
+    "siegel_exponential",
+    "moduli_path",
     "SiegelReduction",
     "SIEGEL_GENUS_LIMIT",
     "to_flint",
@@ -164,11 +184,15 @@ __all__ = [
     "symplectic_isomorphisms",
     "Isomorphisms",
     "moduli_distance",
+    "nearest_marking",
     "symplectic_automorphism_group",
     "SymplecticGroup",
     "j_invariant",
+    "j_derivative",
     "genus_two",
     "theta_constants",
+    "theta_derivatives",
+    "hyperelliptic_point",
     "is_hyperelliptic",
     "recognise_quadratic",
     "recognise_entries",
@@ -176,6 +200,14 @@ __all__ = [
     "Identification",
     "catalogue",
     "surfaces",
+    # surfaces with the period matrix that one wants
+    "deform_to",
+    "lengths_with",
+    "deform_along",
+    "lengths_along",
+    "smooth_functions",
+    "Deformation",
+    "DeformationWarning",
     # forms
     "harmonic_forms",
     "harmonic_form_blocks",

@@ -20,7 +20,9 @@ from igl_periods.pictures import (
     cut_scene,
     cycles_scene,
     density_scene,
+    quadratic_scene,
     quality_scene,
+    sensitivity_scene,
     surface_in_space,
 )
 from igl_periods.reports import method_in_words
@@ -44,6 +46,8 @@ _KINDS: dict[str, str] = {
     "checkerboard": "the checkerboard of a holomorphic form, with its zeros",
     "density": "the length |ζ| of a form",
     "quality": "where the bound of the period matrix originates",
+    "sensitivity": "where the period matrix is sensitive to displacements of the surface",
+    "quadratic": "a quadratic differential, the square of ζ_K: --form K, or the product: K,L",
     "cut": "the cut that makes the surface a disk",
 }
 
@@ -127,6 +131,10 @@ def chosen_scene(options: argparse.Namespace) -> Scene:
     pm = reduced_matrix(K, options)
     if options.show == "cycles":
         return _described(cycles_scene(pm), options, pm)
+    if options.show == "sensitivity":
+        return _described(sensitivity_scene(pm), options, pm)
+    if options.show == "quadratic":
+        return _described(quadratic_scene(pm, *_pair(options.form)), options, pm)
     scenes = {"checkerboard": checkerboard_scene, "density": density_scene, "cut": cut_scene}
     scene = scenes[options.show](chosen_parametrization(pm, options.form))
     return _described(scene, options, None if options.show == "cut" else pm)
@@ -158,6 +166,14 @@ def _check_form(form: str | int | Complexes, K: DeltaComplex) -> None:
             f"--form takes {genus} coefficients, one for each form of genus {genus}, not "
             f"{form.size}."
         )
+
+
+def _pair(form: str | int | Complexes) -> tuple[int, int]:
+    """The numbers k, l of ζ_kζ_l; 1, 1 where nothing is said."""
+    if isinstance(form, str):
+        return 1, 1
+    first, second = (form, form) if isinstance(form, int) else np.resize(form.real, 2).astype(int)
+    return int(first), int(second)
 
 
 def _form(text: str) -> str | int | Complexes:

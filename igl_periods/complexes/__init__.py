@@ -32,6 +32,8 @@ barycentres, the double.  The surface stays what it is, and the classes go along
 ``marked_complex``        a complex with the cochains that it carries
 ``diagonals``             the other diagonal of two triangles, and its rounding
 ``delaunay``              intrinsic Delaunay flips
+``moved_lengths``         the same triangulation with other lengths or positions
+``flipped_lengths``       new lengths by old ones
 ``midpoint_subdivision``  every face in four, or in n²
 ``barycentre_insertion``  some faces in three
 ``doubling``              the complex double
@@ -43,7 +45,7 @@ Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 2.
 Bobenko, Springborn, "A discrete Laplace–Beltrami operator for simplicial surfaces" (2007).
 """
 
-from .triangles import angles, apexes, cotangents, double_areas, length_sensitivity
+from .triangles import angles, apexes, cotangents, double_areas, length_sensitivity, slacks
 from .checked_arrays import (
     check_equal_when_glued,
     check_finite,
@@ -86,6 +88,8 @@ from .weights import cone_angles, cotan_weights, extrinsic_weights
 from .cochains import along_sides, primitive
 from .marked_complex import MarkedComplex
 from .delaunay import Flips, cocircularity_allowance, delaunay_flips, intrinsic_delaunay, transport
+from .moved_lengths import edge_directions, edge_lengths, with_edge_lengths, with_positions
+from .flipped_lengths import FlipDerivative, flip_derivatives, pull_back, push_forward
 from .midpoint_subdivision import split
 from .barycentre_insertion import insert_barycentres, is_divisible
 from .doubling import Involution, double, involution, lift
@@ -96,6 +100,7 @@ __all__ = [
     "cotangents",
     "double_areas",
     "length_sensitivity",
+    "slacks",
     "check_equal_when_glued",
     "check_finite",
     "checked_array",
@@ -147,6 +152,14 @@ __all__ = [
     "Flips",
     "intrinsic_delaunay",
     "transport",
+    "FlipDerivative",
+    "edge_directions",
+    "edge_lengths",
+    "with_edge_lengths",
+    "with_positions",
+    "flip_derivatives",
+    "pull_back",
+    "push_forward",
     "split",
     "insert_barycentres",
     "is_divisible",

@@ -21,6 +21,7 @@ upper bound of the exact one, and the bound of the period matrix falls exponenti
 ``descent``              to the least energy where rounding keeps the solver away from it
 ``least_energy``         the forms of least energy, and their energies from gradients
 ``point_values``         values, gradients and integrals of the forms anywhere
+``gradient_blocks``      gradients in the charts of faces, for derivatives
 =======================  ======================================================================
 
 References
@@ -39,6 +40,7 @@ from .least_energy import (
     high_order_forms,
     rounding_allowance,
 )
+from .gradient_blocks import HighOrderGradients
 from .point_values import edge_integrals, gradients, potentials
 
 __all__ = [
@@ -52,6 +54,7 @@ __all__ = [
     "energy_excess",
     "high_order_forms",
     "HighOrderForms",
+    "HighOrderGradients",
     "rounding_allowance",
     "potentials",
     "gradients",

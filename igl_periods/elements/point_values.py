@@ -73,7 +73,7 @@ def gradients(forms: HighOrderForms, face: ArrayLike, barycentric: ArrayLike) ->
         length = K.lengths[elements.face[block], elements.apex[block]]
         slope = along - 1j * down / elements.aspect[block, None]
         with np.errstate(divide="ignore", invalid="ignore"):
-            scale = t ** (kappa - 1.0) / length * _direction(K, elements, block)
+            scale = t ** (kappa - 1.0) / length * side_directions(K, elements, block)
             values[points] = scale[:, None] * slope
     return values
 
@@ -125,7 +125,7 @@ def _check_points(K: DeltaComplex, faces: Ints, weights: Floats) -> None:
         )
 
 
-def _direction(K: DeltaComplex, elements: Elements, block: Ints) -> Complexes:
+def side_directions(K: DeltaComplex, elements: Elements, block: Ints) -> Complexes:
     """Unit vector of the side opposite the apex, from corner apex + 1 to apex + 2, in the chart."""
     face, apex = elements.face[block], elements.apex[block]
     angle = angles(K.lengths[face])

@@ -23,6 +23,7 @@ face: a Gram matrix of explicit closed forms.  So :math:`D \ge D_{exact}` whatev
 ``harmonic_cochains`` harmonic forms as values on edges
 ``constant_forms``    forms that are constant on every triangle
 ``excess``            where on the surface the bound of the period matrix originates
+``length_derivatives`` Rauch's formula: how D changes with the lengths
 ``rounding``          what rounding can change in the energies
 ====================  =========================================================================
 
@@ -54,6 +55,15 @@ from .harmonic_cochains import (
     side_matrix,
 )
 from .constant_forms import face_areas, linear_parts, spread_to_vertices
+from .length_derivatives import (
+    GradientBlocks,
+    LinearGradients,
+    distortions,
+    energy_derivatives,
+    length_gradient,
+    moments,
+    side_vectors,
+)
 from .excess import energy_excess, most_of
 from .rounding import (
     energy_factor,
@@ -84,7 +94,6 @@ __all__ = [
     "Jumps",
     "LinearForms",
     "blocks",
-    "gram_matrix",
     "weighted_energies",
     "checked_basis",
     "harmonic_basis",
@@ -94,6 +103,14 @@ __all__ = [
     "face_areas",
     "linear_parts",
     "spread_to_vertices",
+    "gram_matrix",
+    "GradientBlocks",
+    "LinearGradients",
+    "distortions",
+    "energy_derivatives",
+    "length_gradient",
+    "moments",
+    "side_vectors",
     "energy_excess",
     "energy_factor",
     "most_of",

@@ -13,17 +13,7 @@ are the automorphisms, a finite group that contains −1.
 Invariants need no search: Klein's j for genus 1, Rosenhain's roots and the invariants of Igusa and
 Clebsch for genus 2, vanishing theta constants for genus 3.
 
-=======================  ======================================================================
-``lattice_isometries``   integer isometries of quadratic forms, to within a tolerance
-``isometries_in_balls``  the same where the forms are known in balls, without a tolerance
-``balls_in_comparison``  what is compared there
-``equivalence``          γ with γ·Π₁ = Π₂
-``automorphisms``        the group of γ with γ·Π = Π
-``theta``                theta constants, and hyperellipticity
-``genus_one``            Klein's j
-``genus_two``            roots and invariants of the curve of genus 2
-``quadratic_numbers``    entries that look like quadratic irrationals
-=======================  ======================================================================
+=======================  ===============================================================
 
 References
 ----------
@@ -41,10 +31,18 @@ from .equivalence import (
 )
 from .balls_in_comparison import reduced_balls
 from .isometries_in_balls import ball_isometries
+from .marking_search import NearestMarking, nearest_marking
 from .automorphisms import SymplecticGroup, symplectic_automorphism_group
 from .theta import is_hyperelliptic, theta_constants, vanishing_even_characteristics
 from .genus_two import absolute_igusa_invariants, igusa_clebsch_invariants, rosenhain_roots
 from .genus_one import certified_j_invariant, j_invariant
+from .invariant_derivatives import (
+    igusa_derivatives,
+    j_derivative,
+    rosenhain_derivatives,
+    theta_derivatives,
+)
+from .hyperelliptic_points import hyperelliptic_point
 from .quadratic_numbers import QuadraticGuess, recognise_entries, recognise_quadratic
 from .lattice_isometries import isometries
 
@@ -57,6 +55,8 @@ __all__ = [
     "logarithms_found",
     "moduli_distance",
     "symplectic_isomorphisms",
+    "nearest_marking",
+    "NearestMarking",
     "symplectic_automorphism_group",
     "SymplecticGroup",
     "vanishing_even_characteristics",
@@ -67,6 +67,11 @@ __all__ = [
     "j_invariant",
     "certified_j_invariant",
     "absolute_igusa_invariants",
+    "hyperelliptic_point",
+    "theta_derivatives",
+    "j_derivative",
+    "rosenhain_derivatives",
+    "igusa_derivatives",
     "recognise_quadratic",
     "recognise_entries",
     "QuadraticGuess",

@@ -17,6 +17,9 @@ triangles have the stored lengths.
 ``arguments``         options and weights as callers hand them over
 ``memory_estimates``  what a computation will take, before it is begun
 ``rounding``          what rounding can change between D and Π
+``solved_forms``      the forms, kept for derivatives
+``derivative``        ∂Π by lengths and vertices, forward and backward
+``differentiable``    … as methods
 ``matrix``            the period matrix, its estimates and its bound
 ``certificate``       D and its allowance → the certified matrix
 ``proof``             the same with energies in balls: the bound is proved
@@ -36,6 +39,8 @@ Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 3.
 """
 
 from .arguments import checked_options
+from .solved_forms import SolvedForms, solve_forms
+from .derivative import EntryCovariance, Gradient
 from .matrix import PeriodMatrix, check_period_matrix, reduced_if_feasible, siegel_reduced
 from .certificate import certified_period_matrix
 from .adaptive_degree import ToleranceWarning
@@ -52,6 +57,10 @@ __all__ = [
     "combined",
     "congruence",
     "checked_options",
+    "SolvedForms",
+    "solve_forms",
+    "Gradient",
+    "EntryCovariance",
     "PeriodMatrix",
     "check_period_matrix",
     "siegel_reduced",

@@ -75,6 +75,15 @@ def checked_limits(
     return limits[0], limits[1]
 
 
+def check_kept_forms(weights: str, tolerance: float | None, rigorous: bool) -> None:
+    """Refuse options with which no forms are kept."""
+    if weights == "extrinsic" or tolerance is not None or rigorous:
+        raise ValueError(
+            "keep_forms=True goes with intrinsic weights, a degree that is given, and no proof: "
+            "compute once with the tolerance, or the proof, and again for the derivatives."
+        )
+
+
 def edge_weights(K: DeltaComplex, rho: ArrayLike) -> Floats:
     """Weights on half-edges, checked, as weights on edges; (n_edges,)."""
     array = checked_array(rho, "rho", ComplexError)

@@ -30,6 +30,7 @@ from igl_periods.run_log import stage
 
 from .matrix import PeriodMatrix
 from .rounding import LEAST_ALLOWANCE, combined, congruence
+from .solved_forms import SolvedForms
 
 # Where rounding may change energies by more, relative to them, nothing is known of the matrix.
 _LARGEST_ROUNDING = 1.0
@@ -97,7 +98,9 @@ class WithAllowance:
             return certified_period_matrix(self.given, D, rounding_allowance(forms, D))
 
 
-def certified_period_matrix(given: MarkedComplex, raw: Floats, allowance: float) -> PeriodMatrix:
+def certified_period_matrix(
+    given: MarkedComplex, raw: Floats, allowance: float, forms: SolvedForms | None = None
+) -> PeriodMatrix:
     """The period matrix in the canonical basis, from energies in the classes of the cochains.
 
     Parameters
@@ -108,6 +111,8 @@ def certified_period_matrix(given: MarkedComplex, raw: Floats, allowance: float)
         Energies of explicit forms in the classes of ``given.cochains``.
     allowance : float
         What rounding can have changed in them, relative to them.
+    forms : SolvedForms, optional
+        The forms, to be kept.
 
     Raises
     ------
@@ -128,4 +133,5 @@ def certified_period_matrix(given: MarkedComplex, raw: Floats, allowance: float)
         cocycles=given.cocycles(),
         complex=given.complex,
         rounding=max(LEAST_ALLOWANCE, rounding),
+        forms=forms,
     )

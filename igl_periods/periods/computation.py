@@ -28,11 +28,12 @@ from igl_periods.run_log import stage
 from igl_periods.topology import mark
 
 from .adaptive_degree import period_matrix_within
-from .arguments import checked_limits, checked_options, edge_weights
-from .certificate import Method, WithAllowance
+from .arguments import check_kept_forms, checked_limits, checked_options, edge_weights
+from .certificate import Method, WithAllowance, certified_period_matrix
 from .matrix import PeriodMatrix
 from .memory_estimates import check_high_order, room_for_forms
 from .proof import Proved
+from .solved_forms import solve_forms
 
 
 def period_matrix(
@@ -46,6 +47,7 @@ def period_matrix(
     max_unknowns: float | None = None,
     max_memory: float | None = None,
     rigorous: bool = False,
+    keep_forms: bool = False,
 ) -> PeriodMatrix:
     """Compute the period matrix of a closed, oriented, connected polyhedral surface.
 
@@ -79,6 +81,9 @@ def period_matrix(
         Prove the bound: all that it depends on is computed in balls that cover every rounding,
         at nearly the speed of floating point.  The surface is the one whose triangles have the side
         lengths that the complex stores, exactly.
+    keep_forms : bool
+        Keep the forms in the result, so that derivatives cost no new solution.  Not with a
+        tolerance, a proof or extrinsic weights.
 
     Returns
     -------
@@ -122,12 +127,17 @@ def period_matrix(
     max_unknowns, max_memory = checked_limits(max_unknowns, max_memory)
     delaunay = checked_switch("delaunay", delaunay)
     rigorous = checked_switch("rigorous", rigorous)
+    if checked_switch("keep_forms", keep_forms):
+        check_kept_forms(weights, tolerance, rigorous)
     K = as_complex(surface, F)
     room = room_for_forms(K, max_memory)
     if weights == "extrinsic":
         return _uncertified(K, extrinsic_weights(K))
     with stage("homology"):
         given = mark(K)
+    if keep_forms:
+        kept, raw, allowance = solve_forms(given, delaunay=delaunay, degree=degree)
+        return certified_period_matrix(given, raw, allowance, kept)
     method = _method(given, rigorous)
     if tolerance is not None:
         where = method.triangulation(delaunay)

@@ -70,7 +70,9 @@ from igl_periods.symplectic import (
     williamson_of_factor,
 )
 
+from .differentiable import Differentiable
 from .rounding import LEAST_ALLOWANCE, algebraic_allowance, combined, congruence
+from .solved_forms import SolvedForms
 
 _MOST_REDUCTIONS = 8
 _ASYMMETRY = 1e-8
@@ -93,7 +95,7 @@ class Proof(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class PeriodMatrix:
+class PeriodMatrix(Differentiable):
     """A period matrix with its certificate and its marking.
 
     ``numpy.asarray(pm)`` is ``pm.matrix``.  All arrays are read-only.
@@ -112,6 +114,8 @@ class PeriodMatrix:
         What the bound allows for floating-point errors in ``dirichlet``, relative like itself.
     proof : Proof or None
         Energies in balls, with which the bound is proved.
+    forms : SolvedForms or None
+        The harmonic forms, where they were kept for derivatives (``keep_forms=True``).
     """
 
     dirichlet: Floats
@@ -120,6 +124,7 @@ class PeriodMatrix:
     complex: DeltaComplex
     rounding: float = LEAST_ALLOWANCE
     proof: Proof | None = None
+    forms: SolvedForms | None = None
 
     def __post_init__(self) -> None:
         D = np.array(self.dirichlet, dtype=np.float64)
@@ -273,7 +278,8 @@ class PeriodMatrix:
             return None
         cocycles = csr_array(csr_array(U) @ self.cocycles)
         rounding = combined(self.rounding, loss)
-        return PeriodMatrix(D, self.certified, cocycles, self.complex, rounding)
+        forms = None if self.forms is None else self.forms.in_basis(U)
+        return PeriodMatrix(D, self.certified, cocycles, self.complex, rounding, forms=forms)
 
     def _proved_in(self, U: Ints) -> PeriodMatrix | None:
         """The same, with a proof for the new matrix; the balls themselves lose nothing."""
@@ -296,7 +302,7 @@ class PeriodMatrix:
     def __reduce__(self) -> tuple[type[PeriodMatrix], tuple[Any, ...]]:
         # Pickled without what is derived, and read-only again afterwards.
         fields = (self.dirichlet, self.certified, self.cocycles, self.complex, self.rounding)
-        return PeriodMatrix, (*fields, self.proof)
+        return PeriodMatrix, (*fields, self.proof, self.forms)
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
         if copy:

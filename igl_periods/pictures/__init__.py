@@ -6,6 +6,7 @@ and is not imported before.  That happens in a process of its own, which may abo
 
 ===================  ==========================================================================
 ``scenes``           cycles, checkerboard, density, quality, cut
+``derivative_scenes``  sensitivity, quadratic differentials
 ``tubes``            closed walks as smooth tubes
 ``rendering``        scenes to pixels, in a process with a time limit
 ``drawing``          what that process does, with Open3D
@@ -24,6 +25,7 @@ from .scenes import (
     quality_scene,
     surface_in_space,
 )
+from .derivative_scenes import quadratic_scene, sensitivity_scene
 from .rendering import check_display, render, save, show, with_legend
 from .textured_meshes import write_glb, write_obj
 
@@ -34,6 +36,8 @@ __all__ = [
     "density_scene",
     "plain_scene",
     "quality_scene",
+    "quadratic_scene",
+    "sensitivity_scene",
     "Scene",
     "surface_in_space",
     "check_display",

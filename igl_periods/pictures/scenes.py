@@ -99,7 +99,7 @@ def cycles_scene(pm: PeriodMatrix) -> Scene:
         If the surface has no positions in space.
     """
     K, g = pm.complex, pm.genus
-    sheet = _Sheet.of(K)
+    sheet = Sheet.of(K)
     V, F = sheet.V, sheet.F
     tail, _ = half_edge_ends(K)
     walks = canonical_cycles(pm.complex, pm.cocycles)
@@ -130,7 +130,7 @@ def _shortest_handles(K: DeltaComplex, walks: list[Ints]) -> Ints:
 
 def checkerboard_scene(P: Parametrization) -> Scene:
     """The checkerboard of a form, with its zeros (yellow) and vertices of negative index (red)."""
-    sheet = _Sheet.of(P.complex)
+    sheet = Sheet.of(P.complex)
     V, F = sheet.V, sheet.F
     zeros, folds = np.flatnonzero(P.index > 0), np.flatnonzero(P.index < 0)
     uv = P.corner_uv[: len(F)] * checkerboard_scale(P)
@@ -163,16 +163,16 @@ def checkerboard(pixels: int = 256) -> Bytes:
 def density_scene(P: Parametrization) -> Scene:
     """The length |ζ| of a form, from dark (small) to light, on a logarithmic scale."""
     K = P.complex
-    sheet = _Sheet.of(K)
+    sheet = Sheet.of(K)
     area = face_areas(K)
     at_vertices = spread_to_vertices(K, P.density * area) / spread_to_vertices(K, area)
     values = 0.5 * np.log10(np.maximum(at_vertices, 1e-300))
-    colours, low, high = _coloured(values)
+    colours, low, high = coloured(values)
     return Scene(
         sheet.V,
         sheet.F,
         colours,
-        legend=_scale_legend(10.0**low, 10.0**high),
+        legend=scale_legend(10.0**low, 10.0**high),
         caption=(
             f"|ζ| of a holomorphic form, from {10.0**low:.2g} (dark) to {10.0**high:.2g} (light), "
             "on a logarithmic scale."
@@ -182,16 +182,16 @@ def density_scene(P: Parametrization) -> Scene:
 
 def quality_scene(K: DeltaComplex, quality: MeshQuality) -> Scene:
     """Where the bound originates: its density, from dark (small) to light, logarithmic."""
-    sheet = _Sheet.of(K)
+    sheet = Sheet.of(K)
     density = quality.vertex_excess / spread_to_vertices(K, face_areas(K))
     relative = density / max(quality.bound, 1e-300) * float(face_areas(K).sum())
     values = np.log10(np.maximum(relative, 1e-6))
-    colours, low, high = _coloured(values)
+    colours, low, high = coloured(values)
     return Scene(
         sheet.V,
         sheet.F,
         colours,
-        legend=_scale_legend(10.0**low, 10.0**high),
+        legend=scale_legend(10.0**low, 10.0**high),
         caption=(
             "Where the bound originates: its part per area, compared with the average, from "
             f"{10.0**low:.2g} (dark) to {10.0**high:.2g} (light), on a logarithmic scale."
@@ -201,7 +201,7 @@ def quality_scene(K: DeltaComplex, quality: MeshQuality) -> Scene:
 
 def cut_scene(P: Parametrization) -> Scene:
     """The edges along which the surface is cut to a disk."""
-    sheet = _Sheet.of(P.complex)
+    sheet = Sheet.of(P.complex)
     tail, head = (sheet.vertex[ends] for ends in half_edge_ends(P.complex))
     normals = igl.per_vertex_normals(sheet.V, sheet.F)
     tubes = tuple(
@@ -221,7 +221,7 @@ def cut_scene(P: Parametrization) -> Scene:
 
 def plain_scene(K: DeltaComplex) -> Scene:
     """The surface, and nothing on it."""
-    sheet = _Sheet.of(K)
+    sheet = Sheet.of(K)
     return Scene(sheet.V, sheet.F, _uniform(sheet.V), caption="The surface.")
 
 
@@ -250,7 +250,7 @@ def surface_in_space(K: DeltaComplex) -> tuple[Floats, Ints]:
 
 
 @dataclass(frozen=True, eq=False)
-class _Sheet:
+class Sheet:
     """What there is to see of a surface: all of it, but of a double the first sheet only.
 
     The second sheet lies in the same place; ``vertex`` takes its vertices to those below them.
@@ -261,7 +261,8 @@ class _Sheet:
     vertex: Ints
 
     @classmethod
-    def of(cls, K: DeltaComplex) -> _Sheet:
+    def of(cls, K: DeltaComplex) -> Sheet:
+        """The first sheet of a double, or the whole surface."""
         V, F = surface_in_space(K)
         vertex = np.arange(len(V))
         try:
@@ -279,7 +280,7 @@ def _uniform(V: Floats) -> Floats:
     return np.tile(_PALE, (len(V), 1))
 
 
-def _coloured(values: Floats) -> tuple[Floats, float, float]:
+def coloured(values: Floats) -> tuple[Floats, float, float]:
     """Colours of values, and the least and greatest that are told apart."""
     low, high = np.percentile(values, [_CLIPPED, 100.0 - _CLIPPED])
     if high - low < 1e-9:
@@ -291,7 +292,8 @@ def _viridis(values: Floats) -> Floats:
     return np.asarray(igl.colormap(igl.ColorMapType.VIRIDIS, values, False))
 
 
-def _scale_legend(low: float, high: float) -> tuple[tuple[str, tuple[float, float, float]], ...]:
+def scale_legend(low: float, high: float) -> tuple[tuple[str, tuple[float, float, float]], ...]:
+    """The ends and the middle of a logarithmic scale, with their colours."""
     ends = _viridis(np.array([0.0, 0.5, 1.0]))
     values = (low, np.sqrt(low * high), high)
     return tuple(

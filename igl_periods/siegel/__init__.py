@@ -16,6 +16,7 @@ reduced matrices of one surface may differ, and are never compared entry by entr
 ``half_space``        what is a Siegel point; distance
 ``action``            γ·Π, accurately
 ``enclosed_points``   points that are known in balls
+``geodesics``         the shortest way between two points
 ``balls``             Π in ball arithmetic
 ``ball_action``       γ·Π and energies in balls
 ``lll``               lattice reduction in integers; large lattices in floating point
@@ -50,6 +51,7 @@ from .half_space import (
     siegel_distance,
     siegel_transform,
 )
+from .geodesics import moduli_path, orthonormal_weights, siegel_exponential, siegel_logarithm
 from .balls import ARRAY_ERROR, ball_matrix, to_flint
 from .lll import lll_basis
 from .enumeration import short_vectors
@@ -72,6 +74,10 @@ __all__ = [
     "log_eigenvalues",
     "siegel_distance",
     "siegel_transform",
+    "moduli_path",
+    "orthonormal_weights",
+    "siegel_exponential",
+    "siegel_logarithm",
     "ARRAY_ERROR",
     "ball_matrix",
     "PRECISION",

@@ -19,6 +19,7 @@ U = KγK, K = diag(1, −1), D ↦ U D Uᵀ.
 ====================  =========================================================================
 ``integer_matrices``  integer products and inverses that cannot overflow
 ``canonical_basis``   canonical bases of an integer skew form, Sp(2g, Z)
+``estimate_derivatives``  … and how they change with D
 ``williamson_form``   D, Π, symplectic eigenvalues and the symplectic mean
 ====================  =========================================================================
 
@@ -39,6 +40,8 @@ from .williamson_form import (
     williamson_of_factor,
 )
 
+from .estimate_derivatives import EstimateDerivative, estimate_derivative
+
 __all__ = [
     "int_array",
     "product",
@@ -53,4 +56,6 @@ __all__ = [
     "williamson",
     "williamson_basis",
     "williamson_of_factor",
+    "EstimateDerivative",
+    "estimate_derivative",
 ]

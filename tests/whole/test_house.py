@@ -27,6 +27,7 @@ TESTED_ELSEWHERE = {
     "meshes/formats/placement.py": "tests/meshes/formats/test_gltf.py",
     "meshes/formats/ply_tables.py": "tests/meshes/formats/test_ply.py",
     "meshes/outlines.py": "tests/meshes/test_polygons.py",
+    "periods/differentiable.py": "tests/periods/test_derivative.py",
     "surfaces/lawson/chart.py": "tests/surfaces/lawson/test_unstructured.py",
     "surfaces/named_surface.py": "tests/surfaces/test_named_surfaces.py",
 }
