@@ -25,6 +25,7 @@ _FIELD_OF_VIEW = 30.0
 _GAMMA = 2.2
 # Pictures are drawn this many times larger and averaged, so that edges are smooth.
 _OVERSAMPLING = 2
+_CORNERS = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
 _BACKGROUND = (1.0, 1.0, 1.0, 1.0)
 
 
@@ -172,6 +173,9 @@ def _mesh(o3d: ModuleType, V: Floats, F: Ints, colours: Floats) -> Any:
     # The engine takes them for linear; colours are meant as they appear on a screen.
     mesh.vertex_colors = o3d.utility.Vector3dVector(np.asarray(colours) ** _GAMMA)
     mesh.vertex_normals = o3d.utility.Vector3dVector(normals)
+    # Also without a texture: 0.20 looks for one where there is none, and draws white spots where
+    # the coordinates are constant in a face, or left to chance.
+    mesh.triangle_uvs = o3d.utility.Vector2dVector(np.tile(_CORNERS, (len(F), 1)))
     return mesh
 
 

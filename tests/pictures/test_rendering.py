@@ -69,6 +69,18 @@ def test_the_background_is_white_and_pictures_are_repeatable(torus):
     assert 0.2 < (picture == 255).all(axis=2).mean() < 0.8
 
 
+def test_nothing_on_the_surface_is_as_white_as_the_background(torus):
+    # A surface of one colour, dark, smooth, and lit from one side has no spots.
+    V, F = surface_in_space(torus.complex)
+    dark = Scene(V, F, np.full(V.shape, 0.3), balls=((V[:1], 0.02, (0.1, 0.1, 0.1)),))
+    picture = render(dark, SIZE, (0, 0, 1))
+    inside = is_drawn(picture)
+    inside &= np.roll(inside, 2, 0) & np.roll(inside, -2, 0)
+    inside &= np.roll(inside, 2, 1) & np.roll(inside, -2, 1)
+    assert inside.mean() > 0.2
+    assert picture[inside].max() < 200
+
+
 def test_the_nearer_of_two_parts_is_seen(torus):
     # A ball in the hole, where one looks down the axis; from the side the torus is before it.
     V, F = surface_in_space(torus.complex)
