@@ -53,7 +53,7 @@ _KINDS: dict[str, str] = {
 
 
 # Kinds that show a form, and those that show nothing of the period matrix.
-_OF_A_FORM, _OF_THE_MESH = ("checkerboard", "density"), ("quality", "cut")
+_OF_A_FORM, _OF_THE_MESH = ("checkerboard", "density", "quadratic"), ("quality", "cut")
 _EVEN = "even"
 
 
