@@ -16,14 +16,16 @@ page.  In reading order:
 ``topology``       K → integer cochains, cycles
 ``harmonic``       K, cochains → D, by linear functions
 ``elements``       K, cochains → D, by functions of high degree, conical at cone points
+``proofs``         the same energies in midpoint–radius arithmetic
 ``periods``        D → Π and its bound
+``enclosures``     Π in balls, to as many digits as are asked for
 ``symplectic``     J, integer bases, the Williamson form: what D and Π have in common
 ``siegel``         Π → γ·Π reduced
 ``moduli``         Π₁, Π₂ → equivalence, symmetries, invariants
 ``forms``          the discrete theory of the paper on Λ = Γ ⊕ Γ*
 ``differentials``  Π on the mesh → holomorphic forms, parametrization, Abel–Jacobi
 ``surfaces``       reference surfaces, their exact Π, and which of them a Π is
-``pictures``, ``reports``, ``cli``, ``batch``, ``distributed``
+``pictures``, ``reports``, ``cli``, ``batch``, ``distributed``, ``machine``
 =================  ============================================================================
 """
 
@@ -63,6 +65,7 @@ from .periods import (
     richardson,
     sampled_torus,
 )
+from .enclosures import PeriodEnclosure, enclose
 from .siegel import (
     SIEGEL_GENUS_LIMIT,
     SiegelReduction,
@@ -121,6 +124,8 @@ __all__ = [
     "period_matrix",
     "period_matrix_from_weights",
     "PeriodMatrix",
+    "enclose",
+    "PeriodEnclosure",
     "ToleranceWarning",
     "mesh_quality",
     "refined_period_matrix",

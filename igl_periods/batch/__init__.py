@@ -12,7 +12,7 @@ it stopped; when all files have their rows, they are written in the order of the
 
 from igl_periods.errors import BatchError
 
-from igl_periods.extras import require
+from igl_periods.machine import require
 
 require("a batch", "dask", "distributed", "pyarrow")
 

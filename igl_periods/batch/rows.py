@@ -33,6 +33,7 @@ from os import PathLike
 from typing import Any
 
 from igl_periods.complexes import DeltaComplex, as_complex
+from igl_periods.machine import one_thread
 from igl_periods.meshes import MeshReport, components_by_genus, read_surface, surface_of
 from igl_periods.moduli import (
     absolute_igusa_invariants,
@@ -47,7 +48,6 @@ from igl_periods.periods import (
     period_matrix,
     reduced_if_feasible,
 )
-from igl_periods.threads import one_thread
 
 Row = dict[str, Any]
 # The columns in their order; every value may be None, except for the file.
@@ -94,7 +94,7 @@ class BatchOptions:
     ----------
     repair, double : bool
         Repair meshes; take the doubles of the surfaces.
-    weights, delaunay, degree, tolerance
+    weights, delaunay, degree, tolerance, rigorous
         As in :func:`~igl_periods.period_matrix`.
 
     Raises
@@ -109,9 +109,12 @@ class BatchOptions:
     delaunay: bool = True
     degree: int = 1
     tolerance: float | None = None
+    rigorous: bool = False
 
     def __post_init__(self) -> None:
-        degree, tolerance = checked_options(self.weights, self.degree, self.tolerance)
+        degree, tolerance = checked_options(
+            self.weights, self.degree, self.tolerance, self.rigorous
+        )
         checked = {name: checked_switch(name, getattr(self, name)) for name in _SWITCHES}
         for name, value in {**checked, "degree": degree, "tolerance": tolerance}.items():
             object.__setattr__(self, name, value)

@@ -97,6 +97,11 @@ def add_period_arguments(command: argparse.ArgumentParser) -> None:
         metavar="R",
         help="raise the degree until the certified bound is at most R",
     )
+    command.add_argument(
+        "--rigorous",
+        action="store_true",
+        help="prove the bound in ball arithmetic, roundings included",
+    )
 
 
 def add_memory_argument(command: argparse.ArgumentParser) -> None:
@@ -116,7 +121,8 @@ def memory_limit(options: argparse.Namespace) -> dict[str, float]:
 
 def chosen_options(options: argparse.Namespace) -> dict[str, Any]:
     """The keywords of :func:`~igl_periods.period_matrix` that decide about the result."""
-    return {name: getattr(options, name) for name in ("weights", "delaunay", "degree", "tolerance")}
+    names = ("weights", "delaunay", "degree", "tolerance", "rigorous")
+    return {name: getattr(options, name) for name in names}
 
 
 def read_surfaces(options: argparse.Namespace) -> tuple[list[DeltaComplex], MeshReport | None]:

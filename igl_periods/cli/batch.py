@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
 from igl_periods.display import counted
-from igl_periods.extras import require
+from igl_periods.machine import require
 
 from .arguments import Commands, add_period_arguments, add_reading_arguments, chosen_options
 from .terminal import refused, say

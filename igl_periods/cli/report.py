@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from igl_periods.extras import require
+from igl_periods.machine import require
 
 from .arguments import Commands
 from .picture_arguments import add_picture_command, reduced_surface

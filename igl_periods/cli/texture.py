@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from igl_periods.extras import require
+from igl_periods.machine import require
 from igl_periods.reports import parametrization_in_words
 
 from .arguments import Commands

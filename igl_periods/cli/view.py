@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from igl_periods.errors import RenderError
-from igl_periods.extras import require
+from igl_periods.machine import require
 
 from .arguments import Commands
 from .picture_arguments import add_picture_command, add_scene_arguments, chosen_scene

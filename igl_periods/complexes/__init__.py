@@ -62,6 +62,14 @@ from .gluings import (
 )
 from .glued_squares import periodic_grid, squares
 from .half_edges import edge_ends, forward_half_edges, half_edge_ends, walk_vertices
+from .exact_lengths import (
+    ExactLengths,
+    LengthsByKind,
+    by_kind,
+    circumradius,
+    lattice_length,
+    root_of,
+)
 from .mesh_readers import is_array_like, mesh_reader
 from .delta_complex import DeltaComplex
 from .surface_arguments import (
@@ -75,7 +83,7 @@ from .surface_checks import check_closed_and_oriented, check_connected, check_su
 from .weights import cone_angles, cotan_weights, extrinsic_weights
 from .cochains import along_sides, primitive
 from .marked_complex import MarkedComplex
-from .delaunay import cocircularity_allowance, delaunay_flips, intrinsic_delaunay, transport
+from .delaunay import Flips, cocircularity_allowance, delaunay_flips, intrinsic_delaunay, transport
 from .midpoint_subdivision import split
 from .barycentre_insertion import insert_barycentres, is_divisible
 from .doubling import Involution, double, involution, lift
@@ -117,6 +125,12 @@ __all__ = [
     "as_complex",
     "of_a_surface",
     "of_a_surface_or",
+    "ExactLengths",
+    "LengthsByKind",
+    "by_kind",
+    "circumradius",
+    "lattice_length",
+    "root_of",
     "cone_angles",
     "cotan_weights",
     "extrinsic_weights",
@@ -125,6 +139,7 @@ __all__ = [
     "MarkedComplex",
     "cocircularity_allowance",
     "delaunay_flips",
+    "Flips",
     "intrinsic_delaunay",
     "transport",
     "split",

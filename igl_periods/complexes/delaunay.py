@@ -59,7 +59,9 @@ _EDGES_AT_ONCE = 8_192
 class Flips:
     """One round of flips: the edges flipped, and the cochain on each in terms of its sides.
 
-    ``c[edge] = first_sign c[first] + second_sign c[second]`` for every closed cochain c.
+    ``c[edge] = first_sign c[first] + second_sign c[second]`` for every closed cochain c.  Seen
+    along the old edge from A to B, with p on its left and q on its right, the sides are
+    ``first`` A q, ``second`` p A, ``third`` B p and ``fourth`` q B.
     """
 
     edge: Ints
@@ -67,6 +69,8 @@ class Flips:
     first_sign: NDArray[np.int8]
     second: Ints
     second_sign: NDArray[np.int8]
+    third: Ints
+    fourth: Ints
 
     @classmethod
     def union(cls, portions: list[Flips]) -> Flips:
@@ -137,6 +141,7 @@ def delaunay_flips(K: DeltaComplex) -> tuple[DeltaComplex, list[Flips]]:
         sign=mesh.sign.reshape(-1, 3),
         corner_vertex=mesh.corner_vertex.reshape(-1, 3),
         distortion=mesh.distortion_when_rounded(),
+        exact_lengths=None,
     )
     return flipped, rounds
 
@@ -249,7 +254,8 @@ class _FlippableMesh:
         p, a, q, b = (self.corner_vertex[corner] for corner in (h, bp, t, aq))
         old = np.concatenate([aq, pa, bp, qb])
         new = np.concatenate([here, here + 2, there, there + 2])
-        flips = Flips(edges, self.edge[aq], -self.sign[aq], self.edge[pa], -self.sign[pa])
+        sides = self.edge[[aq, pa, bp, qb]]
+        flips = Flips(edges, sides[0], -self.sign[aq], sides[1], -self.sign[pa], sides[2], sides[3])
 
         self._move(old, new)
         self._place_diagonal(edges, here + 1, there + 1, diagonal)

@@ -33,6 +33,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import igl
@@ -51,6 +52,7 @@ from .checked_arrays import (
     checked_lengths,
     checked_positions,
 )
+from .exact_lengths import ExactLengths, by_kind, root_of
 from .glued_squares import squares
 from .gluings import (
     checked_same,
@@ -103,6 +105,10 @@ class DeltaComplex(ReadOnlyArrays):
     distortion : (m,) float or None
         How much rounding may have changed the metric of each face since the complex was given,
         relative to it and in units of 2⁻⁵⁰; None where nothing was changed.
+    exact_lengths : function or None
+        The lengths of the edges as balls, for a precision in bits, where the doubles in ``lengths``
+        are rounded (:mod:`igl_periods.complexes.exact_lengths`); what is proved is proved about
+        these.  Where there is no such function, the doubles are the lengths, exactly.
     """
 
     lengths: Floats
@@ -116,6 +122,7 @@ class DeltaComplex(ReadOnlyArrays):
     positions: Floats | None = None
     mollification: float = 0.0
     distortion: Floats | None = None
+    exact_lengths: ExactLengths | None = None
 
     def __repr__(self) -> str:
         sizes = [
@@ -240,7 +247,10 @@ class DeltaComplex(ReadOnlyArrays):
         (4, 12, 8, 1)
         """
         lengths, twin = squares(gluing, n)
-        return _assemble(lengths, twin, np.zeros(twin.shape, dtype=bool))
+        K = _assemble(lengths, twin, np.zeros(twin.shape, dtype=bool))
+        diagonal = (K.lengths > 1.2 / n).astype(np.int64)
+        squared = [root_of(Fraction(1, n * n)), root_of(Fraction(2, n * n))]
+        return replace(K, exact_lengths=by_kind(K.edge, diagonal, squared))
 
     @property
     def n_faces(self) -> int:

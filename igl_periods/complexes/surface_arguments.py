@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from igl_periods.errors import MeshError
-from igl_periods.memory import require_memory
+from igl_periods.machine import require_memory
 from igl_periods.run_log import stage
 
 from .checked_arrays import checked_corners

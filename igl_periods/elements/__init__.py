@@ -29,8 +29,9 @@ Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 3.
 Babuška, Suri, "The p and h-p versions of the finite element method" (1994).
 """
 
-from .placement import separate_cones
-from .trace_system import count_unknowns
+from .reference_elements import ReferenceElement
+from .placement import Elements, separate_cones
+from .trace_system import count_unknowns, jumps, unknowns
 from .trial_forms import HighOrderForms
 from .least_energy import (
     dirichlet_matrix,
@@ -41,8 +42,12 @@ from .least_energy import (
 from .point_values import edge_integrals, gradients, potentials
 
 __all__ = [
+    "ReferenceElement",
+    "Elements",
     "separate_cones",
     "count_unknowns",
+    "jumps",
+    "unknowns",
     "dirichlet_matrix",
     "energy_excess",
     "high_order_forms",

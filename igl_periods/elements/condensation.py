@@ -24,7 +24,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from igl_periods.arrays import Floats, Ints
-from igl_periods.threads import one_thread
+from igl_periods.machine import one_thread
 
 from .placement import Elements
 

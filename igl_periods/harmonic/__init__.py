@@ -42,8 +42,10 @@ from .energies import (
     harmonic_problem,
     HarmonicProblem,
     linear_energies,
+    panels_of_columns,
     weighted_energies,
 )
+from .linear_forms import Jumps, LinearForms, blocks, gram_matrix
 from .harmonic_cochains import (
     checked_basis,
     harmonic_basis,
@@ -78,6 +80,11 @@ __all__ = [
     "harmonic_problem",
     "HarmonicProblem",
     "linear_energies",
+    "panels_of_columns",
+    "Jumps",
+    "LinearForms",
+    "blocks",
+    "gram_matrix",
     "weighted_energies",
     "checked_basis",
     "harmonic_basis",

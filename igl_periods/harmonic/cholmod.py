@@ -20,9 +20,8 @@ from sksparse.cholmod import CholmodNotPositiveDefiniteError, Factor, analyze
 
 from igl_periods.arrays import Floats
 from igl_periods.errors import NotPositiveDefiniteError
-from igl_periods.memory import release_freed_memory
+from igl_periods.machine import release_freed_memory, without_lost_threads
 from igl_periods.run_log import progress
-from igl_periods.threads import without_lost_threads
 
 _SOLVES_AT_ONCE = 32
 

@@ -117,7 +117,7 @@ def harmonic_energies(
         Relative to D.
     """
     n, k = problem.sources.shape
-    panels = _panels(n, k, memory)
+    panels = panels_of_columns(n, k, memory)
     D, loss = np.zeros((k, k)), np.zeros((k, k))
     for i, rows in enumerate(panels):
         held = problem.forms(rows, factor)
@@ -131,7 +131,7 @@ def harmonic_energies(
     return D, allowance_for_loss(D, loss)
 
 
-def _panels(n: int, k: int, memory: float | None) -> list[slice]:
+def panels_of_columns(n: int, k: int, memory: float | None) -> list[slice]:
     """Columns in portions, one if all fit, else so that two portions do."""
     width = k
     if memory is not None and 8.0 * n * k > memory:

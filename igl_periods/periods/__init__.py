@@ -19,6 +19,7 @@ triangles have the stored lengths.
 ``rounding``          what rounding can change between D and Π
 ``matrix``            the period matrix, its estimates and its bound
 ``certificate``       D and its allowance → the certified matrix
+``proof``             the same with energies in balls: the bound is proved
 ``adaptive_degree``   the degree that meets a tolerance
 ``computation``       the steps, one after the other
 ``marking``           which faces are divided
@@ -44,8 +45,12 @@ from .quality import MeshQuality, WIDE, mesh_quality
 from .extrapolation import Extrapolation, richardson, sampled_torus
 from .real_surfaces import real_structure
 from .recognition import matrix_of_complex
+from .rounding import LEAST_ALLOWANCE, combined, congruence
 
 __all__ = [
+    "LEAST_ALLOWANCE",
+    "combined",
+    "congruence",
     "checked_options",
     "PeriodMatrix",
     "check_period_matrix",

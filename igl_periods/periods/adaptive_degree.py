@@ -23,34 +23,30 @@ from __future__ import annotations
 
 import time
 import warnings
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
 from igl_periods.arrays import Floats
-from igl_periods.complexes import MarkedComplex, insert_barycentres, intrinsic_delaunay
+from igl_periods.complexes import MarkedComplex
 from igl_periods.elements import (
     HighOrderForms,
     count_unknowns,
-    dirichlet_matrix,
     energy_excess,
     high_order_forms,
-    rounding_allowance,
     separate_cones,
 )
 from igl_periods.errors import ComplexError
-from igl_periods.harmonic import energy_factor, linear_energies
-from igl_periods.memory import available_memory
+from igl_periods.harmonic import energy_factor, factored
+from igl_periods.machine import available_memory
 from igl_periods.run_log import logger
 from igl_periods.symplectic import williamson_basis
 
+from .certificate import Method
 from .marking import marked_faces
 from .matrix import PeriodMatrix
 from .memory_estimates import high_order_memory, room_for_forms
 
-Certify = Callable[[Floats, float], PeriodMatrix]
 HIGHEST_DEGREE = 20
 # The ratio r of the bounds of successive degrees, before it is measured.
 _USUAL_RATIO = 12.0
@@ -113,7 +109,7 @@ class Limits:
 
 def period_matrix_within(
     triangulation: MarkedComplex,
-    certify: Certify,
+    method: Method,
     tolerance: float,
     max_unknowns: float | None = None,
     max_memory: float | None = None,
@@ -127,9 +123,8 @@ def period_matrix_within(
     ----------
     triangulation : MarkedComplex
         A closed, oriented, connected surface, before cone points are separated; best Delaunay.
-    certify : callable
-        Makes a period matrix of the Dirichlet matrix of forms in the classes of the cochains and
-        its rounding allowance.
+    method : Method
+        From forms to period matrices, and to finer triangulations.
     tolerance : float
         The bound to reach.
     max_unknowns : number, optional
@@ -156,10 +151,10 @@ def period_matrix_within(
     if not tolerance > 0.0:
         raise ValueError(f"tolerance = {tolerance}: a bound is always positive.")
     limits = Limits(max_unknowns, max_memory)
-    attempts = [_linear_attempt(triangulation, certify, max_memory)]
+    attempts = [_linear_attempt(triangulation, method, max_memory)]
     while (best := min(attempts, key=lambda attempt: attempt.bound)).bound > tolerance:
-        plan = _next_plan(attempts, tolerance, limits)
-        outcome = _carried_out(plan, certify, tolerance) if isinstance(plan, Plan) else plan
+        plan = _next_plan(attempts, method, tolerance, limits)
+        outcome = _carried_out(plan, method, tolerance) if isinstance(plan, Plan) else plan
         if isinstance(outcome, str):
             warnings.warn(
                 f"the bound is {best.bound:.2g}, not {tolerance:.2g} as wanted: {outcome}.",
@@ -172,24 +167,24 @@ def period_matrix_within(
 
 
 def _linear_attempt(
-    triangulation: MarkedComplex, certify: Certify, max_memory: float | None
+    triangulation: MarkedComplex, method: Method, max_memory: float | None
 ) -> Attempt:
     start = time.perf_counter()
-    K, cochains = triangulation.complex, triangulation.cochains
-    result = certify(*linear_energies(K, cochains, room_for_forms(K, max_memory)))
+    K = triangulation.complex
+    laplacian, problem = method.problem(triangulation)
+    result = method.linear(problem, factored(laplacian), room_for_forms(K, max_memory))
     seconds = time.perf_counter() - start
     return _logged(Attempt(triangulation, 1, K.n_vertices, seconds, result, np.zeros(0)))
 
 
-def _carried_out(plan: Plan, certify: Certify, tolerance: float) -> Attempt | str:
+def _carried_out(plan: Plan, method: Method, tolerance: float) -> Attempt | str:
     """The attempt as planned, or how it failed."""
     start = time.perf_counter()
     logger.info("degree %2d next, in about %.2g s", plan.degree, plan.seconds)
     where = plan.triangulation
     try:
         forms = high_order_forms(where.complex, where.cochains, plan.degree)
-        D = dirichlet_matrix(forms)
-        result = certify(D, rounding_allowance(forms, D))
+        result = method.high_order(where, forms)
     except ComplexError as error:
         return f"degree {plan.degree} fails, {error}"
     assert result.bound is not None
@@ -217,7 +212,9 @@ def _logged(attempt: Attempt) -> Attempt:
     return attempt
 
 
-def _next_plan(attempts: list[Attempt], tolerance: float, limits: Limits) -> Plan | str:
+def _next_plan(
+    attempts: list[Attempt], method: Method, tolerance: float, limits: Limits
+) -> Plan | str:
     """The cheapest way to go on, or why there is none."""
     last = attempts[-1]
     # On needles the allowance is made of energy of the forms, and falls with their error: what it
@@ -231,7 +228,7 @@ def _next_plan(attempts: list[Attempt], tolerance: float, limits: Limits) -> Pla
     target = max(tolerance, 1.2 * rounding)
     plans = [_raised(attempts, target)] if last.degree < HIGHEST_DEGREE else []
     if last.degree > 1:
-        plans += _divided(last, target)
+        plans += _divided(last, method, target)
     reasons = []
     if not plans:
         return "the degree is as high as it gets, and faces that hold it are too thin to be divided"
@@ -278,7 +275,7 @@ def _discretisation(attempt: Attempt) -> float:
     return max(attempt.bound - attempt.result.rounding, np.finfo(float).eps)
 
 
-def _divided(last: Attempt, target: float) -> list[tuple[float, Plan]]:
+def _divided(last: Attempt, method: Method, target: float) -> list[tuple[float, Plan]]:
     """The predicted cost of meeting the target by division, and the first round of it.
 
     Nothing where the faces that hold the bound are too thin.
@@ -287,7 +284,7 @@ def _divided(last: Attempt, target: float) -> list[tuple[float, Plan]]:
     faces = marked_faces(where.complex, last.excess, _MARKED)
     if faces.size == 0:
         return []
-    finer = where.after(partial(insert_barycentres, faces=faces)).after(intrinsic_delaunay)
+    finer = method.divided(where, faces)
     growth = count_unknowns(finer.after(separate_cones).complex, last.degree) / last.unknowns
     rounds = np.ceil(np.log(last.bound / target) / np.log(_ROUND_RATIO))
     cost = float(np.sum(growth ** np.arange(1.0, rounds + 1.0)))

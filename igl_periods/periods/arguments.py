@@ -14,7 +14,9 @@ _LARGEST_WEIGHT = 1e100
 _LARGEST_DEGREE = 1000
 
 
-def checked_options(weights: str, degree: int, tolerance: float | None) -> tuple[int, float | None]:
+def checked_options(
+    weights: str, degree: int, tolerance: float | None, rigorous: bool = False
+) -> tuple[int, float | None]:
     """Refuse options of :func:`period_matrix` that have no such value or contradict each other.
 
     Returns
@@ -29,6 +31,8 @@ def checked_options(weights: str, degree: int, tolerance: float | None) -> tuple
     tolerance = checked_tolerance(tolerance)
     if weights == "extrinsic" and (degree != 1 or tolerance is not None):
         raise ValueError("extrinsic weights have degree 1 and no bound: leave both options away.")
+    if weights == "extrinsic" and rigorous:
+        raise ValueError("extrinsic weights have no bound that could be proved: rigorous=True.")
     if degree != 1 and tolerance is not None:
         raise ValueError("a tolerance chooses the degree: leave one of the two away.")
     return degree, tolerance

@@ -2,19 +2,99 @@
 
 Energies are computed for the thin, sparse cochains of the cotree; the integer change of basis T is
 applied to the 2g × 2g matrix, T D Tᵀ, not to 2g dense forms.
+
+There are two ways from forms to a matrix with a bound, and a :class:`Method` is one of them: in
+floating point, with an allowance for rounding (:class:`WithAllowance`), or in balls
+(:class:`igl_periods.periods.proof.Proved`).
 """
 
 from __future__ import annotations
 
-from igl_periods.arrays import Floats
-from igl_periods.complexes import MarkedComplex
+from dataclasses import dataclass
+from functools import partial
+from typing import Any, Protocol
+
+from scipy.sparse import csc_matrix
+
+from igl_periods.arrays import Floats, Ints
+from igl_periods.complexes import MarkedComplex, insert_barycentres, intrinsic_delaunay
+from igl_periods.elements import HighOrderForms, dirichlet_matrix, rounding_allowance
 from igl_periods.errors import ComplexError
+from igl_periods.harmonic import (
+    CholeskyFactor,
+    HarmonicProblem,
+    harmonic_energies,
+    harmonic_problem,
+)
+from igl_periods.run_log import stage
 
 from .matrix import PeriodMatrix
 from .rounding import LEAST_ALLOWANCE, combined, congruence
 
 # Where rounding may change energies by more, relative to them, nothing is known of the matrix.
 _LARGEST_ROUNDING = 1.0
+
+
+class Method(Protocol):
+    """From a surface and forms on it to a period matrix with a bound.
+
+    Triangulations are handed from each step to the next, and are those of the method itself.
+    """
+
+    def triangulation(self, delaunay: bool) -> MarkedComplex:
+        """The surface as it was given, or its intrinsic Delaunay triangulation."""
+
+    def divided(self, where: MarkedComplex, faces: Ints) -> MarkedComplex:
+        """Faces divided into three at their barycentres, then flipped."""
+
+    def problem(self, where: MarkedComplex) -> tuple[csc_matrix, Any]:
+        """The grounded Laplacian, and all else that :meth:`linear` needs of the triangulation."""
+
+    def linear(self, problem: Any, factor: CholeskyFactor, memory: float | None) -> PeriodMatrix:
+        """From the harmonic forms that are linear on triangles."""
+
+    def high_order(self, where: MarkedComplex, forms: HighOrderForms) -> PeriodMatrix:
+        """From forms of high degree."""
+
+
+@dataclass(frozen=True, eq=False)
+class WithAllowance:
+    """Energies in floating point, with an allowance for what rounding can change in them.
+
+    Attributes
+    ----------
+    given : MarkedComplex
+        The surface as it was given.
+    """
+
+    given: MarkedComplex
+
+    def triangulation(self, delaunay: bool) -> MarkedComplex:
+        """The surface as it was given, or its intrinsic Delaunay triangulation."""
+        if not delaunay:
+            return self.given
+        with stage("Delaunay flips"):
+            return self.given.after(intrinsic_delaunay)
+
+    def divided(self, where: MarkedComplex, faces: Ints) -> MarkedComplex:
+        """Faces divided into three at their barycentres, then flipped."""
+        return where.after(partial(insert_barycentres, faces=faces)).after(intrinsic_delaunay)
+
+    def problem(self, where: MarkedComplex) -> tuple[csc_matrix, HarmonicProblem]:
+        """The grounded Laplacian, and all else that :meth:`linear` needs of the triangulation."""
+        return harmonic_problem(where.complex, where.cochains)
+
+    def linear(
+        self, problem: HarmonicProblem, factor: CholeskyFactor, memory: float | None
+    ) -> PeriodMatrix:
+        """From the harmonic forms that are linear on triangles."""
+        return certified_period_matrix(self.given, *harmonic_energies(problem, factor, memory))
+
+    def high_order(self, where: MarkedComplex, forms: HighOrderForms) -> PeriodMatrix:
+        """From forms of high degree."""
+        with stage("energies"):
+            D = dirichlet_matrix(forms)
+            return certified_period_matrix(self.given, D, rounding_allowance(forms, D))
 
 
 def certified_period_matrix(given: MarkedComplex, raw: Floats, allowance: float) -> PeriodMatrix:

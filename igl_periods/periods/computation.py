@@ -10,13 +10,9 @@ compared entry by entry.
 
 from __future__ import annotations
 
-from functools import partial
-
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.sparse import csc_matrix
 
-from igl_periods import elements
 from igl_periods.arrays import Floats
 from igl_periods.complexes import (
     DeltaComplex,
@@ -24,26 +20,19 @@ from igl_periods.complexes import (
     SurfaceLike,
     as_complex,
     extrinsic_weights,
-    intrinsic_delaunay,
 )
 from igl_periods.elements import high_order_forms, separate_cones
-from igl_periods.harmonic import (
-    HarmonicProblem,
-    factored,
-    harmonic_energies,
-    harmonic_potentials,
-    harmonic_problem,
-    weighted_energies,
-)
+from igl_periods.harmonic import factored, harmonic_potentials, weighted_energies
 from igl_periods.options import checked_switch
 from igl_periods.run_log import stage
 from igl_periods.topology import mark
 
 from .adaptive_degree import period_matrix_within
 from .arguments import checked_limits, checked_options, edge_weights
-from .certificate import certified_period_matrix
+from .certificate import Method, WithAllowance
 from .matrix import PeriodMatrix
 from .memory_estimates import check_high_order, room_for_forms
+from .proof import Proved
 
 
 def period_matrix(
@@ -56,6 +45,7 @@ def period_matrix(
     tolerance: float | None = None,
     max_unknowns: float | None = None,
     max_memory: float | None = None,
+    rigorous: bool = False,
 ) -> PeriodMatrix:
     """Compute the period matrix of a closed, oriented, connected polyhedral surface.
 
@@ -85,6 +75,10 @@ def period_matrix(
         Bytes that the computation may take; by default what is available.  Where the functions of
         all forms have no room at once, which is a matter of high genus, they are computed in
         portions.
+    rigorous : bool
+        Prove the bound: all that it depends on is computed in balls that cover every rounding,
+        at nearly the speed of floating point.  The surface is the one whose triangles have the side
+        lengths that the complex stores, exactly.
 
     Returns
     -------
@@ -97,12 +91,16 @@ def period_matrix(
         If V and F are no triangulated surface (:meth:`DeltaComplex.from_mesh`).
     ComplexError
         If the surface is not closed, oriented and connected, its triangles are too degenerate, or
-        the weights define no positive definite energy.
+        the weights define no positive definite energy; with ``rigorous``, if rounding leaves
+        nothing to prove.
     MemoryLimitError
         If the computation would take more memory than it may.
     ValueError
         If an option has no such value, or options contradict each other: extrinsic weights have
-        degree 1 and no bound, and a tolerance chooses the degree.
+        degree 1 and no bound, hence nothing to prove, and a tolerance chooses the degree.
+    ArithmeticError
+        If a proof is wanted where floating-point numbers are not rounded to nearest, or tiny ones
+        are flushed to zero.
 
     Warns
     -----
@@ -116,32 +114,38 @@ def period_matrix(
     >>> pm = period_matrix(torus)
     >>> pm.genus, bool(abs(pm.reduced().matrix[0, 0] - 1j) < 1e-12), pm.bound < 1e-12
     (1, True, True)
+    >>> proved = period_matrix(torus, rigorous=True)
+    >>> proved.rigorous, proved.bound < 1e-12
+    (True, True)
     """
-    degree, tolerance = checked_options(weights, degree, tolerance)
+    degree, tolerance = checked_options(weights, degree, tolerance, rigorous)
     max_unknowns, max_memory = checked_limits(max_unknowns, max_memory)
     delaunay = checked_switch("delaunay", delaunay)
+    rigorous = checked_switch("rigorous", rigorous)
     K = as_complex(surface, F)
     room = room_for_forms(K, max_memory)
     if weights == "extrinsic":
         return _uncertified(K, extrinsic_weights(K))
     with stage("homology"):
         given = mark(K)
-    certify = partial(certified_period_matrix, given)
+    method = _method(given, rigorous)
     if tolerance is not None:
-        where = _triangulated(given, delaunay)
-        return period_matrix_within(where, certify, tolerance, max_unknowns, max_memory)
+        where = method.triangulation(delaunay)
+        return period_matrix_within(where, method, tolerance, max_unknowns, max_memory)
     if degree > 1:
-        separated = _triangulated(given, delaunay).after(separate_cones)
-        check_high_order(separated.complex, degree, given.rank, max_memory)
-        return certify(*_high_order(separated, degree))
+        where = method.triangulation(delaunay)
+        check_high_order(where.after(separate_cones).complex, degree, given.rank, max_memory)
+        with stage(f"forms of degree {degree}"):
+            forms = high_order_forms(where.complex, where.cochains, degree)
+        return method.high_order(where, forms)
     # Nothing keeps the flipped complex while its Laplacian is factored, nor this one afterwards:
     # the factor takes the memory of all of them.
-    laplacian, problem = _linear_problem(_triangulated(given, delaunay))
+    laplacian, problem = method.problem(method.triangulation(delaunay))
     with stage("factorisation"):
         factor = factored(laplacian)
         del laplacian
     with stage("harmonic forms"):
-        return certify(*harmonic_energies(problem, factor, room))
+        return method.linear(problem, factor, room)
 
 
 def period_matrix_from_weights(rho: ArrayLike, twin: ArrayLike) -> PeriodMatrix:
@@ -170,25 +174,9 @@ def period_matrix_from_weights(rho: ArrayLike, twin: ArrayLike) -> PeriodMatrix:
     return _uncertified(K, edge_weights(K, rho))
 
 
-def _triangulated(given: MarkedComplex, delaunay: bool) -> MarkedComplex:
-    """The triangulation on which forms are computed, and the cochains there."""
-    if not delaunay:
-        return given
-    with stage("Delaunay flips"):
-        return given.after(intrinsic_delaunay)
-
-
-def _linear_problem(where: MarkedComplex) -> tuple[csc_matrix, HarmonicProblem]:
-    return harmonic_problem(where.complex, where.cochains)
-
-
-def _high_order(where: MarkedComplex, degree: int) -> tuple[Floats, float]:
-    """Dirichlet matrix of the forms of some degree, and what rounding can change in it."""
-    with stage(f"forms of degree {degree}"):
-        forms = high_order_forms(where.complex, where.cochains, degree)
-    with stage("energies"):
-        D = elements.dirichlet_matrix(forms)
-        return D, elements.rounding_allowance(forms, D)
+def _method(given: MarkedComplex, rigorous: bool) -> Method:
+    """How energies are computed, in floating point or in balls."""
+    return Proved(given) if rigorous else WithAllowance(given)
 
 
 def _uncertified(K: DeltaComplex, rho: Floats) -> PeriodMatrix:

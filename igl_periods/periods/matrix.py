@@ -29,7 +29,12 @@ With d the largest symplectic eigenvalue of D it follows for the symplectic mean
           |\Pi_{exact} - \Pi|_{ij} \le (d - 1) \sqrt{Y_{ii} Y_{jj}},
 
 and Im primal ≤ Im Π_exact ≤ Im dual.  If rounding may have changed D by a factor 1 + r, the same
-holds for (1 + r) D, which has the same symplectic mean: then d is replaced by (1 + r) d.
+holds for (1 + r) D, which has the same symplectic mean: then d is replaced by (1 + r) d.  This r
+is a rule, and where the bound is wanted *proved* it is replaced by balls
+(:mod:`igl_periods.proofs.proved_energies`): whatever Π is, and however it was computed,
+
+.. math:: D \le (1 + b)\, G(\Pi) \quad \text{in balls} \implies
+          \| Y^{-1/2} (\Pi_{exact} - \Pi) Y^{-1/2} \|_2 \le b .
 
 This is about the conformal structure of the *polyhedral* surface, whose triangles have the stored
 side lengths; it says nothing about a smooth surface that a mesh samples.
@@ -44,17 +49,17 @@ from __future__ import annotations
 import warnings
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Protocol
 
 import flint
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
-from igl_periods.arrays import Complexes, Floats
+from igl_periods.arrays import Complexes, Floats, Ints
 from igl_periods.complexes import DeltaComplex
 from igl_periods.display import matrix_html, matrix_latex, matrix_lines, paragraph_html, rounded_up
-from igl_periods.errors import ComplexError, NotASiegelPointError
+from igl_periods.errors import ComplexError, NotASiegelPointError, NotPositiveDefiniteError
 from igl_periods.harmonic import energy_factor
 from igl_periods.options import in_words
 from igl_periods.siegel import SIEGEL_GENUS_LIMIT, check_symplectic, siegel_reduce, to_flint
@@ -70,6 +75,21 @@ from .rounding import LEAST_ALLOWANCE, algebraic_allowance, combined, congruence
 _MOST_REDUCTIONS = 8
 _ASYMMETRY = 1e-8
 _LARGEST_LOSS = 0.1
+# Entry bounds of a proof are rounded upwards by more than their few operations can round down.
+_UPWARDS = 1.0 + 2.0**-48
+
+
+class Proof(Protocol):
+    """Energies in balls, as :class:`igl_periods.proofs.proved_energies.ProvedEnergies`."""
+
+    def in_basis(self, U: NDArray[np.integer]) -> Proof:
+        """The same energies with another canonical basis, U times this one."""
+
+    def dirichlet(self) -> Floats:
+        """Midpoints of the energies in the canonical basis."""
+
+    def relative_radius(self, Pi: Complexes) -> float:
+        """An upper bound of ‖Y^{-1/2} (Π_exact − Π) Y^{-1/2}‖₂, ∞ where nothing is proved."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,6 +110,8 @@ class PeriodMatrix:
         The surface as it was given, before any flip.
     rounding : float
         What the bound allows for floating-point errors in ``dirichlet``, relative like itself.
+    proof : Proof or None
+        Energies in balls, with which the bound is proved.
     """
 
     dirichlet: Floats
@@ -97,6 +119,7 @@ class PeriodMatrix:
     cocycles: csr_array
     complex: DeltaComplex
     rounding: float = LEAST_ALLOWANCE
+    proof: Proof | None = None
 
     def __post_init__(self) -> None:
         D = np.array(self.dirichlet, dtype=np.float64)
@@ -171,12 +194,29 @@ class PeriodMatrix:
             return None
         if self.genus == 0:
             return 0.0
+        if self.proof is not None:
+            return self._proved_bound
         d, r = float(self.symplectic_eigenvalues[0]), self.rounding_allowance
         return max(d - 1.0, 0.0) + r * max(d, 1.0)
 
+    @property
+    def rigorous(self) -> bool:
+        """Whether the bound is proved, roundings included, and contains no allowance for them."""
+        return self.proof is not None
+
+    @cached_property
+    def _proved_bound(self) -> float:
+        assert self.proof is not None
+        return self.proof.relative_radius(self.matrix)
+
     @cached_property
     def rounding_allowance(self) -> float:
-        """What the bound contains for floating-point errors, in D and in what follows from it."""
+        """What the bound contains for floating-point errors, in D and in what follows from it.
+
+        About that: where the bound is proved, the radii of the balls are part of it.
+        """
+        if self.proof is not None:
+            return self.rounding
         return combined(self.rounding, algebraic_allowance(self._factor))
 
     @property
@@ -185,7 +225,8 @@ class PeriodMatrix:
         if self.bound is None:
             return None
         scale = np.sqrt(np.diag(self.matrix.imag))
-        return _read_only(self.bound * np.outer(scale, scale))
+        upwards = _UPWARDS if self.rigorous else 1.0
+        return _read_only(upwards * self.bound * np.outer(scale, scale))
 
     def reduced(self, *, max_genus: int = SIEGEL_GENUS_LIMIT) -> PeriodMatrix:
         """The same surface with a Siegel-reduced matrix; see :func:`siegel_reduce`.
@@ -213,23 +254,40 @@ class PeriodMatrix:
             If it is so large that no digits of the energies would be left.
         """
         U = form_action(check_symplectic(gamma, self.genus))
-        try:
-            D, loss = congruence(U, self.dirichlet)
-        except ComplexError:
-            loss = np.inf
-        if loss > _LARGEST_LOSS:
+        changed = self._approximately_in(U) if self.proof is None else self._proved_in(U)
+        if changed is None:
             raise ComplexError(
                 f"gamma, with entries up to {np.abs(U).max()}, leads to a marking that is too "
                 "extreme for double precision: no digits of the energies would be left. "
                 "siegel_transform(gamma, pm) gives the matrix alone, without a bound."
             )
-        return PeriodMatrix(
-            dirichlet=D,
-            certified=self.certified,
-            cocycles=csr_array(csr_array(U) @ self.cocycles),
-            complex=self.complex,
-            rounding=combined(self.rounding, loss),
-        )
+        return changed
+
+    def _approximately_in(self, U: Ints) -> PeriodMatrix | None:
+        """The same in another basis of forms, or None where rounding would leave no digits."""
+        try:
+            D, loss = congruence(U, self.dirichlet)
+        except ComplexError:
+            return None
+        if loss > _LARGEST_LOSS:
+            return None
+        cocycles = csr_array(csr_array(U) @ self.cocycles)
+        rounding = combined(self.rounding, loss)
+        return PeriodMatrix(D, self.certified, cocycles, self.complex, rounding)
+
+    def _proved_in(self, U: Ints) -> PeriodMatrix | None:
+        """The same, with a proof for the new matrix; the balls themselves lose nothing."""
+        assert self.proof is not None
+        cocycles = csr_array(csr_array(U) @ self.cocycles)
+        known = combined(self.bound or 0.0, _LARGEST_LOSS)
+        try:
+            proof = self.proof.in_basis(U)
+            changed = PeriodMatrix(
+                proof.dirichlet(), True, cocycles, self.complex, self.rounding, proof
+            )
+            return changed if (changed.bound or 0.0) <= known else None
+        except (ComplexError, NotPositiveDefiniteError, OverflowError):
+            return None
 
     def to_flint(self) -> flint.acb_mat:
         """``matrix`` as balls with the radii ``entry_bounds``, for python-flint."""
@@ -238,7 +296,7 @@ class PeriodMatrix:
     def __reduce__(self) -> tuple[type[PeriodMatrix], tuple[Any, ...]]:
         # Pickled without what is derived, and read-only again afterwards.
         fields = (self.dirichlet, self.certified, self.cocycles, self.complex, self.rounding)
-        return PeriodMatrix, fields
+        return PeriodMatrix, (*fields, self.proof)
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
         if copy:
@@ -247,6 +305,7 @@ class PeriodMatrix:
 
     def __repr__(self) -> str:
         bound = "not certified" if self.bound is None else f"bound {rounded_up(self.bound, 3)}"
+        bound += ", proved" if self.rigorous else ""
         matrix = [f"  {line}" for line in matrix_lines(self.matrix, self.entry_bounds)]
         return "\n".join([f"PeriodMatrix of genus {self.genus}, {bound}", *matrix])
 
@@ -264,9 +323,10 @@ class PeriodMatrix:
         """How far what is shown can be off, in a sentence."""
         if self.bound is None:
             return "Not certified: there is no bound, and digits are shown as they were computed."
+        certified = "Proved" if self.rigorous else "Certified"
         return (
-            f"Certified: within {rounded_up(self.bound)} of the polyhedral surface's, relative to "
-            "its size. Digits that this does not support are not shown; the last one of each "
+            f"{certified}: within {rounded_up(self.bound)} of the polyhedral surface's, relative "
+            "to its size. Digits that this does not support are not shown; the last one of each "
             "number is off by 1 at most."
         )
 

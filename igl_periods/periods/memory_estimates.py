@@ -25,7 +25,7 @@ import numpy as np
 
 from igl_periods.complexes import BYTES_A_FACE_FLIPPING, DeltaComplex
 from igl_periods.elements import count_unknowns
-from igl_periods.memory import require_memory
+from igl_periods.machine import require_memory
 
 _BYTES_A_FACE = 240.0
 _BYTES_AN_ENTRY = 12.0

@@ -14,7 +14,7 @@ import numpy as np
 
 from igl_periods.arrays import Bytes, Floats, Ints
 from igl_periods.errors import RenderError
-from igl_periods.extras import missing_library
+from igl_periods.machine import missing_library
 
 from .drivers import check_egl, check_vulkan
 from .scenes import TUBE, Scene, checkerboard

@@ -9,7 +9,7 @@ import ctypes
 import re
 
 from igl_periods.errors import RenderError
-from igl_periods.extras import missing_library
+from igl_periods.machine import missing_library
 
 _SURFACELESS = 0x31DD  # EGL_PLATFORM_SURFACELESS_MESA
 

@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Bytes, Floats
 from igl_periods.errors import RenderError
-from igl_periods.extras import require
+from igl_periods.machine import require
 from igl_periods.run_log import stage
 
 from .scenes import Scene

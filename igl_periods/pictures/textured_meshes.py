@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from igl_periods.arrays import Floats
 from igl_periods.differentials import Parametrization
-from igl_periods.extras import require
+from igl_periods.machine import require
 
 from .scenes import checkerboard, checkerboard_scale, surface_in_space
 

@@ -33,6 +33,7 @@ def period_matrix_to_json(pm: PeriodMatrix) -> dict[str, Any]:
         "matrix": matrix_to_json(pm.matrix),
         "certified": pm.certified,
         "bound": pm.bound,
+        "rigorous": pm.rigorous,
         "rounding_allowance": pm.rounding_allowance if pm.certified else None,
         "entry_bounds": None if pm.entry_bounds is None else matrix_to_json(pm.entry_bounds),
         "symplectic_eigenvalues": eigenvalues,

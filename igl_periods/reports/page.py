@@ -22,9 +22,9 @@ from numpy.typing import NDArray
 
 from igl_periods.arrays import Floats
 from igl_periods.differentials import Parametrization, most_even_form, parametrize
-from igl_periods.display import LARGEST_SHOWN, matrix_html, rounded_up
+from igl_periods.display import LARGEST_SHOWN, matrix_html
 from igl_periods.errors import ComplexError, RenderError
-from igl_periods.extras import require
+from igl_periods.machine import require
 from igl_periods.meshes import MeshReport
 from igl_periods.periods import MeshQuality, PeriodMatrix, mesh_quality
 from igl_periods.pictures import (
@@ -40,7 +40,7 @@ from igl_periods.pictures import (
 )
 
 from .json_document import period_matrix_to_json
-from .words import advice, parametrization_in_words
+from .words import advice, bound_in_words, parametrization_in_words
 
 logger = logging.getLogger("igl_periods")
 _CITATION = (
@@ -165,7 +165,7 @@ def _matrix(pm: PeriodMatrix) -> str:
         "whose integrals along a<sub>1</sub> … a<sub>g</sub> are 0, but for 1 along a<sub>k</sub>."
         "</p>",
         _table(pm),
-        f'<p class="bound">{escape(_bound_in_words(pm))}</p>',
+        f'<p class="bound">{escape(bound_in_words(pm))}</p>',
         _download(pm),
     ]
     return "\n".join(parts)
@@ -175,21 +175,6 @@ def _table(pm: PeriodMatrix) -> str:
     if pm.genus > LARGEST_SHOWN:
         return f"<p>{pm.genus} × {pm.genus} entries; all of them are in the file below.</p>"
     return f'<div class="scroll">{matrix_html(pm.matrix, pm.entry_bounds)}</div>'
-
-
-def _bound_in_words(pm: PeriodMatrix) -> str:
-    bounds = pm.entry_bounds
-    if pm.bound is None or bounds is None:
-        return (
-            "There is no bound: these weights are not the energy of functions on the surface. "
-            "Intrinsic weights come with one."
-        )
-    return (
-        f"Π of this polyhedral surface is known to within {rounded_up(pm.bound)}, relative to its "
-        f"size; no entry is off by more than {rounded_up(bounds.max())}. This is a theorem, with "
-        "an allowance for rounding. It is about the surface made of these flat triangles: how well "
-        "they represent a smooth surface is another question, which the bound does not answer."
-    )
 
 
 def _download(pm: PeriodMatrix) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ from igl_periods.siegel import SIEGEL_GENUS_LIMIT
 
 from .words import bound_in_words
 
+_WIDTH = 92
 LARGEST_PRINTED = LARGEST_SHOWN  # genus up to which matrices are printed
 
 
@@ -35,7 +37,7 @@ def summary(pm: PeriodMatrix, reduced: PeriodMatrix | None, gamma: NDArray[np.in
         f"Period matrix Π of genus {pm.genus}, {_marking_in_words(pm, reduced)}:",
         _indented(_complex_rows(shown)),
         "How far it can be off:",
-        _indented(bound_in_words(shown)),
+        _indented(textwrap.wrap(bound_in_words(shown), _WIDTH)),
     ]
     if gamma is not None:
         parts += [

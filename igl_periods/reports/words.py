@@ -98,19 +98,24 @@ def _rate(quality: MeshQuality) -> float:
     return min(2.0, 4.0 * np.pi / float(quality.cone_angles.max()))
 
 
-def bound_in_words(pm: PeriodMatrix) -> list[str]:
+def trust_in_words(pm: PeriodMatrix) -> str:
+    """What stands behind the bound of a period matrix."""
+    if pm.rigorous:
+        return "This is proved."
+    return "This is a theorem, with an allowance for rounding."
+
+
+def bound_in_words(pm: PeriodMatrix) -> str:
     """What the bound of a period matrix says, and what it does not."""
     bounds = pm.entry_bounds
     if pm.bound is None or bounds is None:
-        return [
-            "There is no bound: these weights are not the energy of functions on the surface.",
-            "Intrinsic weights (the default) come with one.",
-        ]
-    return [
+        return (
+            "There is no bound: these weights are not the energy of functions on the surface. "
+            "Intrinsic weights (the default) come with one."
+        )
+    return (
         f"Π of this polyhedral surface is known to within {rounded_up(pm.bound)}, relative to its "
-        "size;",
-        f"no entry is off by more than {rounded_up(bounds.max())}. This is a theorem, with an "
-        "allowance for rounding.",
-        "It is about the surface made of these flat triangles: how well they represent a smooth",
-        "surface is another question, which the bound does not answer.",
-    ]
+        f"size; no entry is off by more than {rounded_up(float(bounds.max()))}. "
+        f"{trust_in_words(pm)} It is about the surface made of these flat triangles: how well they "
+        "represent a smooth surface is another question, which the bound does not answer."
+    )

@@ -35,11 +35,15 @@ Braden, Northover, "Bring's curve: its period matrix and the vector of Riemann c
 
 from __future__ import annotations
 
+from dataclasses import replace
+from fractions import Fraction
+from functools import partial
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Complexes, Floats, Ints
-from igl_periods.complexes import DeltaComplex
+from igl_periods.complexes import DeltaComplex, by_kind, circumradius, root_of
 from igl_periods.errors import ComplexError
 
 from .permutations import Permutation, checked_permutation, composed
@@ -178,7 +182,10 @@ def regular_map(rotation: ArrayLike, flip: ArrayLike, n: int = 1) -> DeltaComple
     twin = np.empty(polygon.size, dtype=np.int64)
     twin[k * polygon + side] = k * polygon[glued] + side[glued]
     lengths, gluing = _triangles(twin.reshape(-1, 3)) if k == 3 else _fans(twin, k)
-    return DeltaComplex.from_gluing(*subdivide(lengths, gluing, n))
+    K = DeltaComplex.from_gluing(*subdivide(lengths, gluing, n))
+    spoke = (np.abs(K.lengths * n - 1.0) > 1e-9).astype(np.int64)
+    formulas = (root_of(Fraction(1, n * n)), partial(circumradius, k, n))
+    return replace(K, exact_lengths=by_kind(K.edge, spoke, formulas))
 
 
 def _darts(r: Permutation, t: Permutation) -> tuple[Ints, Ints, Ints]:

@@ -28,12 +28,14 @@ Silhol, "Genus 2 translation surfaces with an order 4 automorphism" (2006).
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Complexes
-from igl_periods.complexes import DeltaComplex, components_of, squares
+from igl_periods.complexes import DeltaComplex, by_kind, components_of, root_of, squares
 from igl_periods.errors import ComplexError
 
 from .permutations import checked_permutation
@@ -162,7 +164,16 @@ def glued_rectangles(
     lengths = np.empty((len(twin), 3))
     lengths[0::2] = np.stack([height, diagonal, width], axis=1)
     lengths[1::2] = np.stack([width, height, diagonal], axis=1)
-    return DeltaComplex.from_gluing(lengths, twin)
+    K = DeltaComplex.from_gluing(lengths, twin)
+    first = 3 * np.repeat(np.arange(n_rectangles), n * n)[:, None]
+    kind = np.empty(lengths.shape, dtype=np.int64)
+    kind[0::2], kind[1::2] = first + np.array([1, 2, 0]), first + np.array([0, 1, 2])
+    formulas = [
+        root_of(square / (n * n))
+        for w, h in ((Fraction(w), Fraction(h)) for w, h in size.tolist())
+        for square in (w * w, h * h, w * w + h * h)
+    ]
+    return replace(K, exact_lengths=by_kind(K.edge, kind, formulas))
 
 
 def _known(name: str) -> str:

@@ -11,10 +11,14 @@ converges to it with order 2.
 
 from __future__ import annotations
 
+from dataclasses import replace
+from fractions import Fraction
+from functools import partial
+
 import numpy as np
 
 from igl_periods.arrays import Floats, Ints
-from igl_periods.complexes import DeltaComplex, periodic_grid, squares
+from igl_periods.complexes import DeltaComplex, by_kind, lattice_length, periodic_grid, squares
 from igl_periods.errors import ComplexError, MeshError
 
 
@@ -46,7 +50,10 @@ def flat_torus(tau: complex, n: int = 4, m: int | None = None) -> DeltaComplex:
     cell = np.arange(n * rows).reshape(n, rows)
     right, up = np.roll(cell, -1, 0).ravel(), np.roll(cell, -1, 1).ravel()
     e, f = complex(1 / n), modulus / rows
+    # The same as p + q τ, exactly.
+    a, b = (Fraction(1, n), Fraction(0)), (Fraction(0), Fraction(1, rows))
     if abs(e + f) > abs(e - f):
+        a, b = b, (-a[0], Fraction(0))
         # Turned by a quarter, the cells have sides f and -e, and the diagonal f - e.
         right, up, e, f = up, np.roll(cell, 1, 0).ravel(), f, -e
     k = cell.ravel().tolist()
@@ -56,7 +63,13 @@ def flat_torus(tau: complex, n: int = 4, m: int | None = None) -> DeltaComplex:
     lengths = np.empty(twin.shape)
     lengths[0::2] = abs(f), abs(e + f), abs(e)
     lengths[1::2] = abs(e), abs(f), abs(e + f)
-    return DeltaComplex.from_gluing(lengths, twin)
+    K = DeltaComplex.from_gluing(lengths, twin)
+    kind = np.empty(twin.shape, dtype=np.int64)
+    kind[0::2], kind[1::2] = (1, 2, 0), (0, 1, 2)
+    formulas = [
+        partial(lattice_length, modulus, p, q) for p, q in (a, b, (a[0] + b[0], a[1] + b[1]))
+    ]
+    return replace(K, exact_lengths=by_kind(K.edge, kind, formulas))
 
 
 def torus_of_revolution(R: float, r: float, n: int = 32, m: int = 16) -> tuple[Floats, Ints]:

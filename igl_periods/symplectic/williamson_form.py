@@ -63,7 +63,7 @@ def siegel_point(G: Floats) -> NDArray[np.complex128]:
     g = len(G) // 2
     L = cholesky_factor(np.roll(G, g, axis=(0, 1)))
     inverse = solve_triangular(L[:g, :g], np.eye(g), lower=True)
-    return _symmetric(-L[g:, :g] @ inverse) + 1j * (inverse.T @ inverse)
+    return _symmetric(-L[g:, :g] @ inverse) + 1j * _symmetric(inverse.T @ inverse)
 
 
 def williamson(D: Floats) -> tuple[Floats, Floats]:

@@ -69,7 +69,7 @@ def test_options_reach_the_computation():
     assert fine["bound"] < 0.1 * plain["bound"]
     assert json.loads(fine["options"]) == {
         "repair": False, "double": False, "weights": "intrinsic", "delaunay": True, "degree": 3,
-        "tolerance": None,
+        "tolerance": None, "rigorous": False,
     }  # fmt: skip
     (met,) = rows_of(path, BatchOptions(tolerance=1e-6))
     assert met["bound"] < 1e-6

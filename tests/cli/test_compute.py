@@ -45,10 +45,24 @@ def test_json_is_complete_and_consistent(torus, capsys):
     }  # fmt: skip
     assert document["mesh"]["loaded"]["triangles"] == 480
     assert document["options"] == {
-        "weights": "intrinsic", "delaunay": True, "degree": 1, "tolerance": None,
+        "weights": "intrinsic", "delaunay": True, "degree": 1, "tolerance": None, "rigorous": False,
         "repair": False, "double": False, "component": None, "reduce": None
     }  # fmt: skip
     assert document["version"] == ip.__version__
+
+
+def test_rigorous_bounds_are_said_to_be_proved(torus, capsys):
+    main(["compute", str(torus), "--rigorous"])
+    words = capsys.readouterr().out
+    assert "This is proved." in words
+    assert "allowance" not in words
+    main(["compute", str(torus)])
+    assert "This is a theorem, with an allowance for rounding." in capsys.readouterr().out
+    main(["compute", str(torus), "--rigorous", "--degree", "3", "--json"])
+    document = json.loads(capsys.readouterr().out)
+    assert document["mesh_marking"]["rigorous"] is True
+    assert document["reduced_marking"]["rigorous"] is True
+    assert document["options"]["rigorous"] is True
 
 
 def test_cycles_in_json_are_closed_walks_on_the_mesh(torus, capsys):

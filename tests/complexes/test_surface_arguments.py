@@ -160,6 +160,6 @@ def test_a_missing_file_is_missing():
 
 
 def test_a_surface_that_has_no_room_is_refused(monkeypatch):
-    monkeypatch.setattr("igl_periods.memory.available_memory", lambda: 1e3)
+    monkeypatch.setattr("igl_periods.machine.memory.available_memory", lambda: 1e3)
     with pytest.raises(ip.MemoryLimitError, match="a complex of 126 faces takes"):
         ip.homology_basis(V, F)

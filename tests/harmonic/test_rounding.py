@@ -6,6 +6,7 @@ import flint
 import numpy as np
 import pytest
 from support import ball_arithmetic
+from support.extreme_surfaces import sheared_strips
 from support.random_surfaces import L_SHAPE, noisy_torus, random_gluing, random_lengths
 
 import igl_periods as ip
@@ -69,23 +70,6 @@ def test_allowance_covers_the_error_of_D(name, K):
     error = np.linalg.norm(whiten @ difference @ whiten.T, 2)
     assert error <= pm.rounding
     assert pm.rounding < 1e-3
-
-
-def sheared_strips(n, m, k, h):
-    """A flat torus of congruent triangles (1, b, c) in strips that are sheared to and fro."""
-    b, c = float(np.hypot(k, h)), float(np.hypot(k - 1, h))
-
-    def vertex(i, j):
-        return i % n * m + j % m
-
-    F, lengths = [], []
-    for j in range(m):
-        s, t = (k, k - 1) if j % 2 == 0 else (1 - k, -k)
-        for i in range(n):
-            a = vertex(i + s, j + 1)
-            F += [(vertex(i, j), vertex(i + 1, j), a), (vertex(i, j), a, vertex(i + t, j + 1))]
-            lengths += [(c, b, 1), (1, c, b)] if j % 2 == 0 else [(b, c, 1), (1, b, c)]
-    return ip.DeltaComplex.from_lengths(lengths, F), b, c
 
 
 @pytest.mark.parametrize(("n", "m", "k", "h"), [(40, 4, 18, 0.9), (200, 4, 90, 0.7)])

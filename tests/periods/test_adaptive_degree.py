@@ -5,7 +5,6 @@ import re
 
 import numpy as np
 import pytest
-from scipy.sparse import csr_array
 
 import igl_periods as ip
 from igl_periods.complexes.delaunay import intrinsic_delaunay
@@ -17,7 +16,7 @@ from igl_periods.periods.adaptive_degree import (
     ToleranceWarning,
     period_matrix_within,
 )
-from igl_periods.periods.rounding import LEAST_ALLOWANCE, congruence
+from igl_periods.periods.certificate import WithAllowance
 from igl_periods.surfaces.square_tiled import glued_rectangles, origami, square_tiled_surface
 from igl_periods.topology.cohomology import cochains_and_basis
 
@@ -32,13 +31,8 @@ def thin_L(width):
 def within(K, tolerance, **limits):
     cochains, T = cochains_and_basis(K)
     flipped, carried = intrinsic_delaunay(K, cochains)
-
-    def certify(raw, allowance):
-        D, loss = congruence(T, raw)
-        cocycles = csr_array(csr_array(T.astype(np.int64)) @ cochains)
-        return ip.PeriodMatrix(D, True, cocycles, K, max(LEAST_ALLOWANCE, allowance + loss))
-
-    return period_matrix_within(MarkedComplex(flipped, carried, T), certify, tolerance, **limits)
+    method = WithAllowance(MarkedComplex(K, cochains, T))
+    return period_matrix_within(MarkedComplex(flipped, carried, T), method, tolerance, **limits)
 
 
 ASYMMETRIC = origami([1, 2, 0, 4, 3], [3, 1, 4, 0, 2])
@@ -149,9 +143,9 @@ def test_failing_attempt_keeps_the_best(monkeypatch):
 def test_stagnation_is_recognised(monkeypatch):
     honest, done = adaptive._carried_out, []
 
-    def useless(plan, certify, tolerance):
+    def useless(plan, method, tolerance):
         done.append(plan)
-        first = honest(adaptive.Plan(done[0].triangulation, 2, 0.0), certify, tolerance)
+        first = honest(adaptive.Plan(done[0].triangulation, 2, 0.0), method, tolerance)
         even = np.ones(plan.triangulation.complex.n_faces)
         return Attempt(plan.triangulation, plan.degree, first.unknowns, 0.0, first.result, even)
 

@@ -7,7 +7,7 @@ import zlib
 from pathlib import Path
 
 from igl_periods.errors import MeshError
-from igl_periods.memory import available_memory
+from igl_periods.machine import available_memory
 
 # The least part of the memory that is left once the content is read and taken apart.
 _PARTS = 8

@@ -25,7 +25,7 @@ import numpy as np
 from igl_periods.arrays import Floats
 from igl_periods.complexes import MOST_TRIANGLES
 from igl_periods.errors import MeshError
-from igl_periods.memory import available_memory
+from igl_periods.machine import available_memory
 
 from .mesh_file import MeshFile, mesh_of_triangles
 from .placement import Part, assembled, placed

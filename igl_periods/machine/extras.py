@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from importlib.util import find_spec
 
-from .errors import MissingExtraError
+from igl_periods.errors import MissingExtraError
 
 # The extras of pyproject.toml, by what their packages are called in an import.
 EXTRAS = {

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import psutil
 
-from .errors import MemoryLimitError
+from igl_periods.errors import MemoryLimitError
 
 _CGROUP = Path("/sys/fs/cgroup")
 _MEMBERSHIP = Path("/proc/self/cgroup")

@@ -8,8 +8,8 @@ import igl
 import pytest
 
 import igl_periods as ip
-from igl_periods import memory
 from igl_periods.cli.program import main
+from igl_periods.machine import memory
 from igl_periods.surfaces import thickened_lattice
 
 LATTICE = thickened_lattice((4, 3, 3), 2, jitter=0.1)
@@ -40,7 +40,7 @@ def test_too_little_memory_on_the_machine(monkeypatch):
 def test_limits_of_the_process_count():
     code = """
 import resource
-from igl_periods.memory import available_memory
+from igl_periods.machine import available_memory
 free = available_memory()
 used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
 resource.setrlimit(resource.RLIMIT_AS, (used + 10_000_000, resource.RLIM_INFINITY))

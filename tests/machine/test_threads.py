@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from threadpoolctl import ThreadpoolController
 
-from igl_periods.threads import one_thread, without_lost_threads
+from igl_periods.machine import one_thread, without_lost_threads
 
 
 def blas_threads():

@@ -9,7 +9,7 @@ import pytest
 from support.random_surfaces import torus_of_revolution
 
 import igl_periods as ip
-from igl_periods.extras import EXTRAS, missing_library, require
+from igl_periods.machine import EXTRAS, missing_library, require
 from igl_periods.meshes.formats.read import read_mesh_file
 from igl_periods.pictures import plain_scene, render, save, with_legend, write_obj
 from igl_periods.reports import write_report

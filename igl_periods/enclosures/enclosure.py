@@ -1,0 +1,311 @@
+r"""A period matrix in balls that provably contain the exact one.
+
+All that is proved is in the energies D of explicit closed forms on the surface
+(:mod:`igl_periods.enclosures.conforming_forms`); the period matrix, its error bound and every other
+marking follow from them (:mod:`igl_periods.enclosures.siegel_point`).  With X + iY the midpoint of
+``matrix`` and η = ``bound``,
+
+.. math:: \| Y^{-1/2} (\Pi_{exact} - X - iY) Y^{-1/2} \|_2 \le \eta .
+
+The surface is the one whose edges have the lengths that ``enclose`` was given: exact ones, square
+roots of sums of squares of the coordinates, or the stored doubles.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import flint
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.sparse import csr_array
+
+from igl_periods.complexes import DeltaComplex
+from igl_periods.periods import LEAST_ALLOWANCE, PeriodMatrix, combined, congruence
+from igl_periods.siegel import SIEGEL_GENUS_LIMIT, check_symplectic, siegel_reduce
+from igl_periods.symplectic import form_action, product
+
+from .exact_arithmetic import (
+    ball_from_text,
+    ball_in_text,
+    from_integers,
+    to_integers,
+)
+from .siegel_point import SiegelBall, siegel_ball
+
+SCHEMA = 1
+
+_DIGITS_PER_BIT = 0.30102999566
+_MOST_REDUCTIONS = 8
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class PeriodEnclosure:
+    """A period matrix in balls, with its marking.
+
+    Attributes
+    ----------
+    dirichlet : (2g, 2g) arb_mat
+        Energies of closed forms in the classes of ``cocycles``, in balls.
+    cocycles : (2g, n_edges) sparse int
+        The marking: closed cochains α_1..α_g, β_1..β_g on the edges of ``complex``, the same as
+        those of ``period_matrix(complex)``.
+    complex : DeltaComplex
+        The surface as it was given.
+    bits : int
+        The precision that ``dirichlet`` was computed with.
+    """
+
+    dirichlet: flint.arb_mat
+    cocycles: csr_array
+    complex: DeltaComplex
+    bits: int
+
+    @property
+    def genus(self) -> int:
+        """The genus g."""
+        return int(self.dirichlet.nrows()) // 2
+
+    @cached_property
+    def _ball(self) -> SiegelBall:
+        with flint.ctx.workprec(self.bits):
+            return siegel_ball(self.dirichlet)
+
+    @cached_property
+    def matrix(self) -> flint.acb_mat:
+        """The period matrix Π; (g, g), every entry contains the exact one."""
+        with flint.ctx.workprec(self.bits):
+            return self._ball.matrix()
+
+    @property
+    def bound(self) -> flint.arb:
+        """η, exact: ‖Y^{-1/2} (Π_exact − X − iY) Y^{-1/2}‖₂ ≤ η for the midpoint X + iY."""
+        return self._ball.bound
+
+    @cached_property
+    def digits(self) -> int:
+        """Proved decimal digits of all entries, relative to √(Y_ii Y_jj)."""
+        known = int(_DIGITS_PER_BIT * self.bits)
+        if self.bound == 0:
+            return known
+        with flint.ctx.workprec(64):
+            proved = -self.bound.log() / flint.arb(10).log()
+            return max(0, min(known, int(float(proved.floor().mid()))))
+
+    def reduced(self, *, max_genus: int = SIEGEL_GENUS_LIMIT) -> PeriodEnclosure:
+        """The same surface with a Siegel-reduced matrix; see :func:`siegel_reduce`.
+
+        Raises
+        ------
+        ValueError
+            If the genus is larger than ``max_genus``.
+        """
+        result, total = self, np.eye(2 * self.genus, dtype=np.int64)
+        for _ in range(_MOST_REDUCTIONS):
+            gamma = siegel_reduce(_midpoint(result.matrix), max_genus=max_genus).gamma
+            if np.array_equal(gamma, np.eye(2 * self.genus)):
+                break
+            total = product(gamma, total)
+            result = self.change_basis(total)
+        return result
+
+    def change_basis(self, gamma: ArrayLike) -> PeriodEnclosure:
+        """The same surface in another canonical basis: Π ↦ (aΠ + b)(cΠ + d)⁻¹.
+
+        Parameters
+        ----------
+        gamma : (2g, 2g) int
+            [[a, b], [c, d]] in Sp(2g, Z).
+
+        Raises
+        ------
+        ValueError
+            If gamma is no integer symplectic matrix of this size.
+        ComplexError
+            If its entries are so large that no digits are left.
+        """
+        U = form_action(check_symplectic(gamma, self.genus))
+        with flint.ctx.workprec(self.bits):
+            change = flint.arb_mat(2 * self.genus, 2 * self.genus, U.ravel().tolist())
+            D = change * self.dirichlet * change.transpose()
+        cocycles = csr_array(csr_array(U) @ self.cocycles)
+        changed = PeriodEnclosure(D, cocycles, self.complex, self.bits)
+        _ = changed.bound
+        return changed
+
+    def contains(self, Pi: ArrayLike | flint.acb_mat) -> bool:
+        """Whether all entries of a matrix lie in the balls of ``matrix``, in the same marking.
+
+        Parameters
+        ----------
+        Pi : (g, g) array-like or acb_mat
+            Numbers are taken as they are stored; of balls the whole must lie inside.
+
+        Raises
+        ------
+        ValueError
+            If it has another shape.
+        """
+        return bool(self.matrix.contains(_as_balls(Pi, self.genus)))
+
+    def overlaps(self, other: PeriodEnclosure | ArrayLike | flint.acb_mat) -> bool:
+        """Whether a matrix in the same marking has entries in common with ``matrix``.
+
+        False proves that the two surfaces, with these markings, have different period matrices.
+
+        Raises
+        ------
+        ValueError
+            If it has another shape.
+        """
+        Pi = other.matrix if isinstance(other, PeriodEnclosure) else other
+        return bool(self.matrix.overlaps(_as_balls(Pi, self.genus)))
+
+    def to_period_matrix(self) -> PeriodMatrix:
+        """The same in floating point, with the allowance for rounding that this costs."""
+        n = 2 * self.genus
+        D = np.array([float(x.mid()) for x in self.dirichlet.entries()]).reshape(n, n)
+        D, loss = congruence(np.eye(n, dtype=np.int8), D)
+        return PeriodMatrix(
+            dirichlet=D,
+            certified=True,
+            cocycles=self.cocycles.copy(),
+            complex=self.complex,
+            rounding=combined(LEAST_ALLOWANCE, loss + _relative_radius(self.dirichlet, D)),
+        )
+
+    def to_json(self) -> dict[str, Any]:
+        """A document of decimal strings, each of which is a proved enclosure."""
+        cocycles = self.cocycles.tocoo()
+        digits = int(_DIGITS_PER_BIT * self.bits) + 1
+        return {
+            "schema": SCHEMA,
+            "kind": "period enclosure",
+            "genus": self.genus,
+            "digits": self.digits,
+            "bits": self.bits,
+            "bound": ball_in_text(self.bound, 6),
+            "matrix": {
+                "real": _texts(self.matrix.real, self.digits + 3),
+                "imag": _texts(self.matrix.imag, self.digits + 3),
+            },
+            "dirichlet": _texts(self.dirichlet, digits),
+            "surface": {
+                "lengths": self.complex.lengths.tolist(),
+                "twin": self.complex.twin.tolist(),
+            },
+            "cocycles": {
+                "row": cocycles.row.tolist(),
+                "edge": cocycles.col.tolist(),
+                "value": cocycles.data.tolist(),
+            },
+        }
+
+    @classmethod
+    def from_json(cls, document: Mapping[str, Any] | str) -> PeriodEnclosure:
+        """Read such a document, or its text; its balls contain those that were written.
+
+        Raises
+        ------
+        ValueError
+            If it is none.
+        """
+        try:
+            data = json.loads(document) if isinstance(document, str) else document
+            if data["kind"] != "period enclosure" or data["schema"] != SCHEMA:
+                raise KeyError("kind or schema")
+            K = DeltaComplex.from_gluing(data["surface"]["lengths"], data["surface"]["twin"])
+            n, bits = 2 * int(data["genus"]), int(data["bits"])
+            with flint.ctx.workprec(bits):
+                entries = [ball_from_text(x) for row in data["dirichlet"] for x in row]
+            sparse = data["cocycles"]
+            cocycles = csr_array(
+                (
+                    np.array(sparse["value"], dtype=np.int64),
+                    (np.array(sparse["row"], np.int64), np.array(sparse["edge"], np.int64)),
+                ),
+                shape=(n, K.n_edges),
+            )
+            return cls(flint.arb_mat(n, n, entries), cocycles, K, bits)
+        except (KeyError, TypeError, IndexError) as error:
+            raise ValueError(f"this document holds no period enclosure ({error}).") from error
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # python-flint's matrices do not pickle; as integers they do.
+        exact = [to_integers(x) for x in self.dirichlet.entries()]
+        return _unpickled, (exact, self.cocycles, self.complex, self.bits)
+
+    def __repr__(self) -> str:
+        text = f"PeriodEnclosure of genus {self.genus}, {self.digits} digits proved"
+        if self.genus == 0:
+            return text
+        return f"{text}\n{self.matrix.str(min(self.digits, 20))}"
+
+    def _repr_latex_(self) -> str:
+        rows = [
+            " & ".join(_in_latex(self.matrix[i, j], self.digits) for j in range(self.genus))
+            for i in range(self.genus)
+        ]
+        body = " \\\\ ".join(rows)
+        return f"$\\Pi = \\begin{{pmatrix}} {body} \\end{{pmatrix}}$"
+
+
+def _unpickled(
+    exact: list[tuple[int, int, int, int]], cocycles: csr_array, K: DeltaComplex, bits: int
+) -> PeriodEnclosure:
+    n = int(cocycles.shape[0])
+    D = flint.arb_mat(n, n, [from_integers(*x) for x in exact])
+    return PeriodEnclosure(D, cocycles, K, bits)
+
+
+def _midpoint(Pi: flint.acb_mat) -> NDArray[np.complex128]:
+    g = Pi.nrows()
+    entries = [complex(z.mid()) for z in Pi.entries()]
+    return np.array(entries, dtype=np.complex128).reshape(g, g)
+
+
+def _as_balls(Pi: ArrayLike | flint.acb_mat, g: int) -> flint.acb_mat:
+    if isinstance(Pi, flint.acb_mat):
+        shape, balls = (Pi.nrows(), Pi.ncols()), Pi
+    else:
+        array = np.asarray(Pi)
+        shape = array.shape
+        entries = [flint.acb(complex(z)) for z in array.ravel().tolist()]
+        balls = flint.acb_mat(*shape, entries) if len(shape) == 2 else None
+    if shape != (g, g):
+        raise ValueError(f"a period matrix of genus {g} has shape {(g, g)}, not {shape}.")
+    return balls
+
+
+def _relative_radius(D: flint.arb_mat, midpoint: NDArray[np.float64]) -> float:
+    """How much of D, relative to it, its radii may be."""
+    if len(midpoint) == 0:
+        return 0.0
+    radius = max(float(x.rad()) for x in D.entries())
+    return float(len(midpoint) * radius / np.linalg.eigvalsh(midpoint)[0])
+
+
+def _texts(A: flint.arb_mat, digits: int) -> list[list[str]]:
+    return [[ball_in_text(x, digits) for x in row] for row in A.tolist()] if A.nrows() else []
+
+
+def _in_latex(z: flint.acb, digits: int) -> str:
+    """A complex number with the digits that are known."""
+    real, imag = (_known_digits(x, digits) for x in (z.real, z.imag))
+    if real == "0":
+        return f"{imag}\\,i"
+    if imag == "0":
+        return real
+    return f"{real}{'' if imag.startswith('-') else '+'}{imag}\\,i"
+
+
+def _known_digits(x: flint.arb, digits: int) -> str:
+    text = str(x.str(digits + 20, radius=False))
+    mantissa, _, exponent = text.partition("e")
+    if not mantissa.strip("-0."):
+        return "0"
+    return f"{mantissa} \\cdot 10^{{{int(exponent)}}}" if exponent else mantissa

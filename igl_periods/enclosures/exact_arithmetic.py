@@ -1,0 +1,34 @@
+r"""Balls as integers and as text; what is read contains what was written.
+
+A ball has a midpoint m 2^e and a radius of the same form, four integers in all.  As text it is
+``[midpoint +/- radius]`` in decimals, rounded outwards: the text denotes a ball that contains the
+original one.
+"""
+
+from __future__ import annotations
+
+import flint
+
+Arb = flint.arb
+
+
+def to_integers(x: Arb) -> tuple[int, int, int, int]:
+    """Mantissa and exponent of the midpoint and of the radius."""
+    mantissa, exponent = x.mid().man_exp()
+    radius, radius_exponent = x.rad().man_exp()
+    return int(mantissa), int(exponent), int(radius), int(radius_exponent)
+
+
+def from_integers(mantissa: int, exponent: int, radius: int, radius_exponent: int) -> Arb:
+    """A ball that contains the one that :func:`to_integers` was given, and hardly more."""
+    return Arb(Arb((mantissa, exponent)), Arb((radius, radius_exponent)))
+
+
+def ball_in_text(x: Arb, digits: int) -> str:
+    """A decimal enclosure of a ball, with so many digits."""
+    return str(x.str(max(digits, 1), more=True))
+
+
+def ball_from_text(text: str) -> Arb:
+    """A ball that contains all that such a text denotes."""
+    return Arb(text)
