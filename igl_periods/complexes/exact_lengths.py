@@ -19,13 +19,13 @@ from functools import partial
 import flint
 import numpy as np
 
-from igl_periods.arrays import Ints
+from igl_periods.arrays import Ints, ReadOnlyArrays
 
 ExactLengths = Callable[[int], Sequence[flint.arb]]
 
 
 @dataclass(frozen=True, eq=False)
-class LengthsByKind:
+class LengthsByKind(ReadOnlyArrays):
     """A few lengths, and which of them each edge has.
 
     Attributes
