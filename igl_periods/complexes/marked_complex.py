@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
+from igl_periods.arrays import ReadOnlyArrays
 from igl_periods.display import arrays_repr
 
 from .delta_complex import DeltaComplex
@@ -23,7 +24,7 @@ Move = Callable[[DeltaComplex, csr_array], tuple[DeltaComplex, csr_array]]
 
 
 @dataclass(frozen=True, eq=False)
-class MarkedComplex:
+class MarkedComplex(ReadOnlyArrays):
     """A triangulation with closed cochains, and what makes a canonical basis of them.
 
     Attributes

@@ -21,7 +21,7 @@ import flint
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from igl_periods.arrays import Ints
+from igl_periods.arrays import Ints, ReadOnlyArrays
 from igl_periods.complexes import DeltaComplex, ExactLengths
 from igl_periods.errors import ComplexError
 
@@ -40,7 +40,7 @@ class StoredLengths:
 
 
 @dataclass(frozen=True, eq=False)
-class Distances:
+class Distances(ReadOnlyArrays):
     """Distances of points with rational coordinates, one for each edge.
 
     Attributes

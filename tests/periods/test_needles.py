@@ -54,7 +54,8 @@ def cap(V, F, rng):
 
 def twins(V, F, rng):
     """A vertex becomes two; two needles lie between them."""
-    a, n = rng.integers(len(V)), len(V)
+    # Three faces at a vertex are too few for two needles between them.
+    a, n = rng.choice(np.flatnonzero(np.bincount(F.ravel()) > 3)), len(V)
     around = {}
     for f in np.flatnonzero((F == a).any(axis=1)):
         _, b, c = np.roll(F[f], -int(np.argmax(F[f] == a)))
