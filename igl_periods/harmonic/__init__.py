@@ -13,19 +13,19 @@ It is never taken from the quadratic form of L, but summed from the gradients of
 face: a Gram matrix of explicit closed forms.  So :math:`D \ge D_{exact}` whatever the solver did
 (Dirichlet's principle), and an error of f enters only at second order.
 
-====================  =========================================================================
-``laplace_matrix``    the Laplacian, grounded at one vertex, and right-hand sides
-``cholmod``           sparse Cholesky factors, and solutions for many right-hand sides
-``potentials``        the functions f that make c + df harmonic
-``linear_forms``      gradients on blocks of faces, and sums of their products
-``grouped_sums``      sums of many terms, with little rounding
-``energies``          D, with few functions held at a time
-``harmonic_cochains`` harmonic forms as values on edges
-``constant_forms``    forms that are constant on every triangle
-``excess``            where on the surface the bound of the period matrix originates
-``length_derivatives`` Rauch's formula: how D changes with the lengths
-``rounding``          what rounding can change in the energies
-====================  =========================================================================
+======================  =======================================================================
+``laplace_matrix``      the Laplacian, grounded at one vertex, and right-hand sides
+``cholmod``             sparse Cholesky factors, and solutions for many right-hand sides
+``potentials``          the functions f that make c + df harmonic
+``linear_forms``        gradients on blocks of faces, and sums of their products
+``grouped_sums``        sums of many terms, with little rounding
+``energies``            D, with few functions held at a time
+``harmonic_cochains``   harmonic forms as values on edges
+``constant_forms``      forms that are constant on every triangle
+``excess``              where on the surface the bound of the period matrix originates
+``length_derivatives``  Rauch's formula: how D changes with the lengths
+``rounding``            what rounding can change in the energies
+======================  =======================================================================
 
 References
 ----------

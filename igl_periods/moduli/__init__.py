@@ -13,7 +13,22 @@ are the automorphisms, a finite group that contains −1.
 Invariants need no search: Klein's j for genus 1, Rosenhain's roots and the invariants of Igusa and
 Clebsch for genus 2, vanishing theta constants for genus 3.
 
+<<<<<<< HEAD
 =======================  ===============================================================
+=======
+=========================  ====================================================================
+``lattice_isometries``     integer isometries of quadratic forms, to within a tolerance
+``equivalence``            γ with γ·Π₁ = Π₂
+``marking_search``         γ with γ·Π₁ near Π₂
+``automorphisms``          the group of γ with γ·Π = Π
+``theta``                  theta constants, and hyperellipticity
+``genus_one``              Klein's j
+``genus_two``              roots and invariants of the curve of genus 2
+``invariant_derivatives``  how these move with Π
+``hyperelliptic_points``   those of genus 3 near a given Π
+``quadratic_numbers``      entries that look like quadratic irrationals
+=========================  ====================================================================
+>>>>>>> derivatives
 
 References
 ----------

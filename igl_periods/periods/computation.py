@@ -136,6 +136,9 @@ def period_matrix(
     with stage("homology"):
         given = mark(K)
     if keep_forms:
+        if degree > 1:
+            separated = given.after(separate_cones).complex
+            check_high_order(separated, degree, given.rank, max_memory)
         kept, raw, allowance = solve_forms(given, delaunay=delaunay, degree=degree)
         return certified_period_matrix(given, raw, allowance, kept)
     method = _method(given, rigorous)

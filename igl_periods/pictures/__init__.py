@@ -4,15 +4,15 @@ A *scene* is made of arrays alone: coloured or textured triangles, tubes, points
 what a picture shows is tested without drawing it; Open3D draws scenes, off screen or in a window,
 and is not imported before.  That happens in a process of its own, which may abort or hang.
 
-===================  ==========================================================================
-``scenes``           cycles, checkerboard, density, quality, cut
+=====================  ========================================================================
+``scenes``             cycles, checkerboard, density, quality, cut
 ``derivative_scenes``  sensitivity, quadratic differentials
-``tubes``            closed walks as smooth tubes
-``rendering``        scenes to pixels, in a process with a time limit
-``drawing``          what that process does, with Open3D
-``drivers``          what Open3D needs of the system
-``textured_meshes``  OBJ with MTL and PNG, and GLB
-===================  ==========================================================================
+``tubes``              closed walks as smooth tubes
+``rendering``          scenes to pixels, in a process with a time limit
+``drawing``            what that process does, with Open3D
+``drivers``            what Open3D needs of the system
+``textured_meshes``    OBJ with MTL and PNG, and GLB
+=====================  ========================================================================
 """
 
 from .scenes import (

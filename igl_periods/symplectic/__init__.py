@@ -16,12 +16,12 @@ being symplectic, and its *symplectic mean* :math:`G = T^T T` is the geometric m
 Sp(2g, Z) acts on Π by γ = [[a, b], [c, d]], Π ↦ (aΠ + b)(cΠ + d)⁻¹, and on bases of forms by
 U = KγK, K = diag(1, −1), D ↦ U D Uᵀ.
 
-====================  =========================================================================
-``integer_matrices``  integer products and inverses that cannot overflow
-``canonical_basis``   canonical bases of an integer skew form, Sp(2g, Z)
+========================  =====================================================================
+``integer_matrices``      integer products and inverses that cannot overflow
+``canonical_basis``       canonical bases of an integer skew form, Sp(2g, Z)
 ``estimate_derivatives``  … and how they change with D
-``williamson_form``   D, Π, symplectic eigenvalues and the symplectic mean
-====================  =========================================================================
+``williamson_form``       D, Π, symplectic eigenvalues and the symplectic mean
+========================  =====================================================================
 
 References
 ----------

@@ -23,7 +23,7 @@ def test_open3d_is_imported_for_pictures_only():
     assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 0
 
 
-@pytest.mark.parametrize("kind", ["cycles", "checkerboard", "quality"])
+@pytest.mark.parametrize("kind", ["cycles", "checkerboard", "quality", "sensitivity", "quadratic"])
 def test_render(command, tmp_path, capsys, kind):
     file = tmp_path / "picture.png"
     assert command("render", LAWSON, "-o", file, "--show", kind, "--size", "80x60") == 0
