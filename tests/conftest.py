@@ -1,9 +1,10 @@
 """Meshes made by others, from the folder named by IGL_PERIODS_MESHES; surfaces computed once."""
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import flint
 import igl
 import numpy as np
 import pytest
@@ -12,6 +13,14 @@ from support.random_surfaces import BOLZA, noisy_torus, torus_of_revolution
 
 import igl_periods as ip
 from igl_periods.complexes.midpoint_subdivision import split
+
+
+@pytest.fixture(autouse=True)
+def default_precision() -> Iterator[None]:
+    """Each test starts at the default precision of python-flint, whatever others have set."""
+    flint.ctx.prec = 53
+    yield
+    flint.ctx.prec = 53
 
 
 @pytest.fixture(scope="session")

@@ -24,7 +24,7 @@ from igl_periods.arrays import Ints, ReadOnlyArrays
 ExactLengths = Callable[[int], Sequence[flint.arb]]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class LengthsByKind(ReadOnlyArrays):
     """A few lengths, and which of them each edge has.
 
@@ -37,6 +37,9 @@ class LengthsByKind(ReadOnlyArrays):
 
     kind: Ints
     formulas: Sequence[Callable[[], flint.arb]]
+
+    def __repr__(self) -> str:
+        return f"LengthsByKind({len(self.formulas)} lengths of {self.kind.size} edges)"
 
     def __call__(self, bits: int) -> list[flint.arb]:
         """The lengths of the edges."""

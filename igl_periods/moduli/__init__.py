@@ -13,11 +13,10 @@ are the automorphisms, a finite group that contains −1.
 Invariants need no search: Klein's j for genus 1, Rosenhain's roots and the invariants of Igusa and
 Clebsch for genus 2, vanishing theta constants for genus 3.
 
-<<<<<<< HEAD
-=======================  ===============================================================
-=======
 =========================  ====================================================================
 ``lattice_isometries``     integer isometries of quadratic forms, to within a tolerance
+``isometries_in_balls``    the same where the forms are known in balls, without a tolerance
+``balls_in_comparison``    what is compared there
 ``equivalence``            γ with γ·Π₁ = Π₂
 ``marking_search``         γ with γ·Π₁ near Π₂
 ``automorphisms``          the group of γ with γ·Π = Π
@@ -28,7 +27,6 @@ Clebsch for genus 2, vanishing theta constants for genus 3.
 ``hyperelliptic_points``   those of genus 3 near a given Π
 ``quadratic_numbers``      entries that look like quadratic irrationals
 =========================  ====================================================================
->>>>>>> derivatives
 
 References
 ----------

@@ -6,7 +6,12 @@ from flint import arb, ctx
 
 from igl_periods.complexes.diagonals import foot, other_diagonal
 
-ctx.prec = 300
+
+@pytest.fixture(autouse=True)
+def precise():
+    ctx.prec = 300
+
+
 U = 2.0**-53
 
 

@@ -9,7 +9,7 @@ from igl_periods.siegel import midpoint
 from igl_periods.surfaces.exact_matrices import bring, lawson_integral, root_of_unity
 from igl_periods.surfaces.named_surfaces import catalogue
 
-IN_FLOATS_ONLY = {"Wente torus", "Schwarz P surface"}
+IN_FLOATS_ONLY = {"Wente torus", "Schwarz P and D surfaces and gyroid"}
 ENTRIES = [surface for genus in range(1, 7) for surface in catalogue(genus)]
 
 
