@@ -55,7 +55,7 @@ _COCHAINS_AT_ONCE = 32
 _EDGES_AT_ONCE = 8_192
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Flips:
     """One round of flips: the edges flipped, and the cochain on each in terms of its sides.
 
@@ -71,6 +71,9 @@ class Flips:
     second_sign: NDArray[np.int8]
     third: Ints
     fourth: Ints
+
+    def __repr__(self) -> str:
+        return f"Flips({self.edge.size} edges)"
 
     @classmethod
     def union(cls, portions: list[Flips]) -> Flips:

@@ -34,7 +34,7 @@ from .gluings import components_of, twins_of_faces
 _LEAST_VOLUME = 1e-9
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class LatticeGluing:
     """The sides of a cell glued by a lattice, and what that took.
 
@@ -55,6 +55,9 @@ class LatticeGluing:
     same: Bools
     n_glued: int
     gap: float
+
+    def __repr__(self) -> str:
+        return f"LatticeGluing({len(self.twin)} faces, {self.n_glued} pairs of sides glued)"
 
 
 def lattice_gluing(

@@ -158,7 +158,8 @@ def test_exact_lengths_are_contained_beside_the_stored_ones():
     stored = stored_lengths(K)
 
     def exact(bits):
-        return [arb(m) if m == 0.5 else arb(0.5).sqrt() for m in stored.mid.tolist()]
+        with flint.ctx.workprec(bits):
+            return [arb(m) if m == 0.5 else arb(0.5).sqrt() for m in stored.mid.tolist()]
 
     balls = lengths_of_edges(with_exact_lengths(K, exact))
     assert contained(balls, exact(BITS))
