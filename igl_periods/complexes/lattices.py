@@ -22,7 +22,6 @@ from itertools import product
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.spatial import cKDTree
 
 from igl_periods.arrays import Bools, Floats, Ints
 from igl_periods.errors import MeshError
@@ -137,6 +136,8 @@ def _points(V: Floats, F: Ints, twin: Ints, L: Floats, reach: float) -> tuple[In
     cell : (n, k) int
         V − cell · L agrees for all copies of a point.
     """
+    from scipy.spatial import cKDTree  # slow to import
+
     side = np.flatnonzero(twin.ravel() < 0)
     tail, head = np.roll(F, -1, axis=1).ravel()[side], np.roll(F, 1, axis=1).ravel()[side]
     rim = np.union1d(tail, head)

@@ -10,7 +10,6 @@ is crossed at the next step.
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from igl_periods.arrays import Bools, Floats, Ints
 
@@ -24,6 +23,8 @@ def passes_through_itself(V: Floats, F: Ints) -> bool:
     ----------
     V, F : (n, 3) float, (m, 3) int
     """
+    from scipy.spatial import cKDTree  # slow to import
+
     corners = V[F]
     centres = corners.mean(axis=1)
     reach = float(np.linalg.norm(corners - centres[:, None], axis=2).max())

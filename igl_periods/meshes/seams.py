@@ -10,7 +10,6 @@ corners of a triangle one.
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from igl_periods.arrays import Floats, Ints
 from igl_periods.complexes import components_of, next_corner
@@ -113,6 +112,8 @@ def stitched(V: Floats, F: Ints, free: Ints, tolerance: float) -> tuple[Ints, in
 
 def _places(V: Floats, used: Ints, tolerance: float) -> Ints:
     """For each vertex a number, the same for those of ``used`` that lie together."""
+    from scipy.spatial import cKDTree  # slow to import
+
     place = first_equal_row(V)
     if tolerance == 0.0 or used.size == 0:
         return place

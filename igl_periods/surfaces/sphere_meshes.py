@@ -15,7 +15,6 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.spatial import ConvexHull, cKDTree
 
 from igl_periods.arrays import Floats, Ints
 
@@ -55,6 +54,8 @@ def refined_sphere(seeds: Floats, size: Callable[[Floats], Floats]) -> tuple[Flo
 
 def outward_hull(V: Floats) -> Ints:
     """Faces of the convex hull, normals outward, least corner first, in lexicographic order."""
+    from scipy.spatial import ConvexHull  # slow to import
+
     hull = ConvexHull(V)
     F = hull.simplices.astype(np.int64)
     a, b, c = V[F[:, 0]], V[F[:, 1]], V[F[:, 2]]
@@ -77,6 +78,8 @@ def _circumcircles(V: Floats, F: Ints) -> tuple[Floats, Floats, Floats]:
 
 def _apart(centre: Floats, radius: Floats, priority: Floats) -> Ints:
     """Indices of a maximal set of centres outside each other's circles, most urgent first."""
+    from scipy.spatial import cKDTree  # slow to import
+
     near = cKDTree(centre).query_ball_point(centre, radius * (1 - 1e-9))
     blocked = np.zeros(len(centre), dtype=bool)
     chosen = []

@@ -26,7 +26,6 @@ from functools import cache
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.ndimage import label
 
 from igl_periods.arrays import Bools, Floats, Ints
 from igl_periods.errors import MeshError
@@ -116,5 +115,7 @@ def _check_corners(padded: Bools) -> None:
 @cache
 def _is_regular() -> Bools:
     """For each of the 256 ways to fill the cells at a corner, whether the boundary is a surface."""
+    from scipy.ndimage import label  # slow to import
+
     ways = (np.arange(256)[:, None] >> np.arange(8) & 1).astype(bool).reshape(-1, 2, 2, 2)
     return np.array([label(way)[1] <= 1 and label(~way)[1] <= 1 for way in ways])

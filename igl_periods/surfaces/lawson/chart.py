@@ -14,7 +14,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import Delaunay, cKDTree
 
 from igl_periods.arrays import Floats, Ints
 from igl_periods.display import arrays_repr
@@ -92,6 +91,8 @@ class DiscChart:
 
     def lloyd(self, sites: Floats, iterations: int = 30) -> Floats:
         """Move sites to the centroids of their Voronoi regions; those of the boundary stay."""
+        from scipy.spatial import cKDTree  # slow to import
+
         fixed = self.on_surface(self.boundary)
         f = len(self.grid) - 1
         row, column = np.divmod(np.arange((f + 1) ** 2), f + 1)
@@ -131,6 +132,8 @@ def _bulging(boundary: Floats) -> Floats:
 
 def _triangulated(places: Floats, stretching: Floats) -> Ints:
     """Delaunay triangulation in the stretched rhombus, counterclockwise; (m, 3)."""
+    from scipy.spatial import Delaunay  # slow to import
+
     points = places @ _AXES @ stretching
     faces = Delaunay(points).simplices.astype(np.int64)
     u, v = points[faces[:, 1]] - points[faces[:, 0]], points[faces[:, 2]] - points[faces[:, 0]]
