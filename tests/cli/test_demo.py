@@ -1,5 +1,7 @@
 """The command ``demo``: what ``compute`` says of a surface that comes with the package."""
 
+import shlex
+
 import pytest
 
 import igl_periods as ip
@@ -11,7 +13,7 @@ def test_demo(capsys):
     out = capsys.readouterr().out
     first, _, result = out.partition("\n\n")
     file = str(ip.sample_files()["lawson_2_1"])
-    assert first.endswith(f"of genus 2: igl-periods compute {file}")
+    assert first.endswith(f"of genus 2: igl-periods compute {shlex.quote(str(file))}")
     assert main(["compute", file]) == 0
     assert result == capsys.readouterr().out
     assert main(["demo", "klein"]) == 0
