@@ -46,6 +46,8 @@ LEAST_LEFT_OVER = 6.0
 LARGEST_DEGREE = 10
 _LOG2 = math.log10(2.0)
 _GUARD_BITS = 64
+# Longer polynomials are not written out.
+_LONGEST_TEXT = 100
 
 
 @dataclass(frozen=True)
@@ -97,6 +99,14 @@ class AlgebraicNumber:
     near: complex
     evidence: Evidence | None = None
 
+    @classmethod
+    def root(
+        cls, polynomial: tuple[int, ...], near: complex, evidence: Evidence | None = None
+    ) -> AlgebraicNumber:
+        """The root of an irreducible polynomial next to a number."""
+        exact = root_near(polynomial, near, _GUARD_BITS)
+        return cls(polynomial, complex(exact.mid()), evidence)
+
     @property
     def degree(self) -> int:
         """The degree over the rational numbers."""
@@ -136,7 +146,12 @@ class AlgebraicNumber:
         surd = in_radicals(self)
         if surd is not None:
             return str(surd)
-        return f"root of {polynomial_text(self.polynomial)} near {self.near:.6g}"
+        text = polynomial_text(self.polynomial)
+        if len(text) > _LONGEST_TEXT:
+            height = len(str(self.height)) - 1
+            text = f"a polynomial of degree {self.degree} and height 10^{height}"
+        near = f"{self.near.real:.6g}" if self.is_real else f"{self.near:.6g}"
+        return f"root of {text} near {near}"
 
 
 def recognise_number(
@@ -186,7 +201,8 @@ def recognise_number(
             return _first_convincing(z, known, degree, left_over, real=True)
         if z.real.contains(0):
             y = _first_convincing(flint.acb(z.imag), known, degree, left_over, real=True)
-            return None if y is None else _times_i(y)
+            number = None if y is None else _times_i(y)
+            return number if number is not None and number.degree <= degree else None
         return _first_convincing(z, known, degree, left_over, real=False)
 
 

@@ -122,7 +122,7 @@ def test_words():
         x = recognise_number(flint.acb(flint.arb(5).sqrt()))
     assert "digits used" in str(x.evidence)
     quintic = AlgebraicNumber((-1, -1, 0, 0, 0, 1), 1.1673 + 0j)
-    assert str(quintic) == "root of x^5 - x - 1 near 1.1673+0j"
+    assert str(quintic) == "root of x^5 - x - 1 near 1.1673"
 
 
 def test_refusals():
