@@ -1,6 +1,6 @@
 r"""Π in balls → the endomorphisms of the Jacobian, and the factors into which it splits.
 
-An endomorphism of the Jacobian C^g / (1 Π) Z^{2g} is an integer matrix M and a complex matrix A with
+An endomorphism of the Jacobian C^g / (1 Π) Z^{2g} is an integer matrix M with a complex matrix A,
 
 .. math:: A\,(1\;\Pi) = (1\;\Pi)\,M .
 

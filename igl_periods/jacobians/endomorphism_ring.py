@@ -2,9 +2,9 @@ r"""The ring of endomorphisms of a Jacobian.
 
 LLL finds a basis (:mod:`~igl_periods.jacobians.commuting_matrices`), in a reduced marking, of the
 integer matrices that commute with the complex structure.  Products are added until the span is a
-ring, and every element is checked in balls at the full precision; one that a ball excludes is
-proved to be no endomorphism and would be an error of the search.  That the rest are endomorphisms is
-recognised, not proved; that there are no others below a stated size is proved.
+ring, and every element is checked in balls at the full precision: what a ball excludes is proved to
+be no endomorphism, and refused.  That the rest are endomorphisms is recognised, not proved; that
+there are no others below a stated size is proved.
 
 References
 ----------

@@ -272,7 +272,7 @@ def jacobian_factors(
     --------
     >>> factors = jacobian_factors([[1j, 0.5], [0.5, 1j]])
     >>> str(factors), factors.ring.name, factors[0][0].cm_discriminant
-    ('E²', 'M₂(Q(i√3))', -48)
+    ('E²', 'M₂(Q(i))', -64)
     """
     ring = Pi if isinstance(Pi, EndomorphismRing) else endomorphisms(Pi, max_genus=max_genus)
     parts = tuple(

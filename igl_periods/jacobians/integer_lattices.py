@@ -23,7 +23,7 @@ def saturated(vectors: flint.fmpz_mat) -> flint.fmpz_mat:
     Examples
     --------
     >>> saturated(flint.fmpz_mat([[2, 4, 0], [0, 6, 0]])).tolist()
-    [[0, 1, 0], [1, 0, 0]]
+    [[1, 0, 0], [0, 1, 0]]
     """
     echelon, denominator, rank = vectors.rref()
     n = vectors.ncols()
