@@ -161,8 +161,8 @@ def fermat_group(n: int = 4) -> FiniteGroup:
         phases = [b[3 + i] + a[3 + b[i]] for i in range(3)]
         return (*images, *((phase - phases[0]) % n for phase in phases))
 
-    return group_of([(1, 2, 0, 0, 0, 0), (1, 0, 2, 0, 0, 0), (0, 1, 2, 0, 1, 0)], compose,
-                    (0, 1, 2, 0, 0, 0))  # fmt: skip
+    neutral: tuple[int, ...] = (0, 1, 2, 0, 0, 0)
+    return group_of([(1, 2, 0, 0, 0, 0), (1, 0, 2, 0, 0, 0), (0, 1, 2, 0, 1, 0)], compose, neutral)
 
 
 def wreath_of_s3() -> FiniteGroup:
