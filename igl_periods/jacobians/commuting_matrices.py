@@ -42,6 +42,8 @@ _LEAST_BITS_USED, _BITS_AT_LARGE_GENUS = 16, 64
 _SMALL = 0.6
 # Gram–Schmidt vectors are enclosed up to this many unknowns.
 _LARGEST_PROVED = 64
+# Logarithms are rounded to double precision.
+_ROUNDING = 1e-6
 _LOG10_2 = math.log10(2.0)
 
 
@@ -161,4 +163,5 @@ def _excluded(
         rounding = sum(
             ((1 + scale * x.rad()) ** 2 for value in values for x in value), flint.arb(1)
         )
-        return (least - float(rounding.log().upper()) / 2) / math.log(10.0)
+        logarithm = least - float(rounding.log().upper()) / 2
+        return logarithm / math.log(10.0) - _ROUNDING

@@ -117,9 +117,18 @@ def field_of(lattice: MatrixLattice) -> NumberField | None:
 
 
 def _field(p: flint.fmpz_poly) -> NumberField | None:
+    """A field isomorphic to Q[X] / p; the generator is chosen among its negative and conjugates."""
     polynomial = integer_polynomial([int(c) for c in p.coeffs()])
-    root = isolated_roots(polynomial, 64)[-1]
-    return generated_field([AlgebraicNumber(polynomial, complex(root.mid()))])
+    field = generated_field([_last_root(polynomial)])
+    if field is None or field.degree <= 2:
+        return field
+    signs = [tuple(c * s**k for k, c in enumerate(field.polynomial)) for s in (1, -1)]
+    return NumberField(_last_root(max(integer_polynomial(c) for c in signs)))
+
+
+def _last_root(polynomial: tuple[int, ...]) -> AlgebraicNumber:
+    roots = [complex(root.mid()) for root in isolated_roots(polynomial, 64)]
+    return AlgebraicNumber(polynomial, max(roots, key=lambda z: (round(z.imag, 9), z.real)))
 
 
 def _kind_of_field(field: NumberField) -> str:
@@ -130,24 +139,35 @@ def _kind_of_field(field: NumberField) -> str:
 
 
 def quaternion_constants(lattice: MatrixLattice) -> tuple[int, int]:
-    """Integers a = i² and b = j² with ij = −ji for a quaternion algebra over Q."""
+    """Integers a = i² and b = j² with ij = −ji for a quaternion algebra over Q.
+
+    If one is 0 on the way there are nilpotent elements, and (1, 1) is the matrix ring.
+    """
     n = lattice.basis.shape[1]
     one = np.eye(n, dtype=np.int64)
     pure = [n * M - int(np.trace(M)) * one for M in lattice.basis]
     i = next(M for M in pure if M.any())
     anticommuting = lattice.where([i @ M + M @ i for M in lattice.basis])
     j = anticommuting.basis[0]
-    return int((i @ i)[0, 0]), int((j @ j)[0, 0])
+    a, b = int((i @ i)[0, 0]), int((j @ j)[0, 0])
+    return (a, b) if a and b else (1, 1)
 
 
 def ramified_places(a: int, b: int) -> tuple[int, ...]:
     """The places where the quaternion algebra (a, b) over Q ramifies; 0 is the real one.
+
+    Raises
+    ------
+    ValueError
+        If a or b is 0.
 
     Examples
     --------
     >>> ramified_places(-1, -1), ramified_places(-1, 3), ramified_places(1, 7)
     ((0, 2), (2, 3), ())
     """
+    if a == 0 or b == 0:
+        raise ValueError(f"the quaternion algebra ({a}, {b}) needs two numbers that are not 0")
     primes = {2} | {int(p) for n in (a, b) for p, _ in flint.fmpz(abs(n)).factor() if p > 1}
     real = [0] if a < 0 and b < 0 else []
     return (*real, *(p for p in sorted(primes) if hilbert_symbol(a, b, p) == -1))

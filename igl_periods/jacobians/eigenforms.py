@@ -18,10 +18,12 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import flint
 
 from igl_periods.arrays import Ints
+from igl_periods.enclosures import matrix_from_integers, matrix_to_integers
 from igl_periods.recognition import NumberField, reduced_relations
 
 from .division_algebras import field_of
@@ -50,6 +52,10 @@ class EigenformRing:
     lattice: MatrixLattice
     form: tuple[flint.acb, ...]
     ring: EndomorphismRing
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        balls = matrix_to_integers(flint.acb_mat([list(self.form)]))
+        return _unpickled, (self.lattice, balls, self.ring)
 
     @property
     def rank(self) -> int:
@@ -89,6 +95,12 @@ class EigenformRing:
             k = _largest(self.form)
             A = analytic_representation(M, self.ring.matrix)
             return _product(self.form, A)[k] / self.form[k]
+
+
+def _unpickled(
+    lattice: MatrixLattice, balls: list[list[tuple[int, ...]]], ring: EndomorphismRing
+) -> EigenformRing:
+    return EigenformRing(lattice, tuple(matrix_from_integers(balls).entries()), ring)
 
 
 def eigenform_ring(ring: EndomorphismRing, form: Sequence[complex | flint.acb]) -> EigenformRing:

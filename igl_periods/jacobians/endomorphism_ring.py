@@ -24,6 +24,7 @@ import numpy as np
 
 from igl_periods.arrays import Ints
 from igl_periods.display import facts_html
+from igl_periods.enclosures import matrix_from_integers, matrix_to_integers
 from igl_periods.recognition import NumberField
 
 from .division_algebras import commute, field_of
@@ -220,11 +221,21 @@ class EndomorphismRing(Sequence[Ints]):
         facts.append(("digits checked", f"{self.evidence.checked_digits:.0f}"))
         return facts
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        balls = matrix_to_integers(self.matrix)
+        return _unpickled, (self.lattice, balls, self.bits, self.evidence)
+
     def __repr__(self) -> str:
         return f"EndomorphismRing({', '.join(f'{name} {value}' for name, value in self._facts())})"
 
     def _repr_html_(self) -> str:
         return facts_html("Endomorphisms: recognised, not proved", self._facts())
+
+
+def _unpickled(
+    lattice: MatrixLattice, balls: list[list[tuple[int, ...]]], bits: int, evidence: RingEvidence
+) -> EndomorphismRing:
+    return EndomorphismRing(lattice, matrix_from_integers(balls), bits, evidence)
 
 
 def order_discriminant(lattice: MatrixLattice) -> int:

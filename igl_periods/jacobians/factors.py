@@ -20,14 +20,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import overload
+from typing import Any, overload
 
 import flint
 from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Complexes
 from igl_periods.display import facts_html
-from igl_periods.enclosures import PeriodEnclosure
+from igl_periods.enclosures import (
+    PeriodEnclosure,
+    matrix_from_integers,
+    matrix_to_integers,
+)
 from igl_periods.moduli import absolute_igusa_invariants, j_invariant
 from igl_periods.recognition import AlgebraicNumber, recognise_number
 from igl_periods.siegel import midpoint, siegel_reduce
@@ -148,6 +152,10 @@ class JacobianFactor:
                 f"{what} is of elliptic curves; this factor has dimension {self.dimension}"
             )
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        balls = matrix_to_integers(self.matrix)
+        return _unpickled, (self.subvariety, balls, self.polarisation, self.bits)
+
     def __repr__(self) -> str:
         if not self.is_elliptic:
             kind = {2: "surface"}.get(self.dimension, f"variety of dimension {self.dimension}")
@@ -244,6 +252,15 @@ class JacobianFactors(Sequence[IsotypicPart]):
     def _repr_html_(self) -> str:
         facts = [(f"part {k + 1}", repr(part[0])) for k, part in enumerate(self.parts)]
         return facts_html(f"Jacobian ~ {self}: recognised, not proved", facts)
+
+
+def _unpickled(
+    subvariety: Subvariety,
+    balls: list[list[tuple[int, ...]]],
+    polarisation: tuple[int, ...],
+    bits: int,
+) -> JacobianFactor:
+    return JacobianFactor(subvariety, matrix_from_integers(balls), polarisation, bits)
 
 
 def jacobian_factors(

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from typing import Any
 
 import flint
 import numpy as np
@@ -127,6 +128,10 @@ class MatrixLattice:
 
     def __post_init__(self) -> None:
         self.basis.flags.writeable = False
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # What is kept in FLINT's matrices is computed again.
+        return MatrixLattice, (self.basis.copy(),)
 
     @property
     def rank(self) -> int:

@@ -21,6 +21,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import flint
 import numpy as np
@@ -45,6 +46,10 @@ class Subvariety:
 
     def __post_init__(self) -> None:
         self.lattice.flags.writeable = False
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # What is kept in FLINT's matrices is computed again.
+        return Subvariety, (self.lattice.copy(),)
 
     @property
     def dimension(self) -> int:

@@ -19,7 +19,7 @@ from igl_periods.jacobians.division_algebras import (
 )
 
 
-@pytest.mark.parametrize(("a", "b"), product([-1, -3, 2, 5, 6, -7, 15], repeat=2))
+@pytest.mark.parametrize(("a", "b"), [*product([-1, -3, 2, 5, 6, -7, 15], repeat=2)])
 def test_the_product_formula_of_hilbert(a, b):
     """The product of all symbols is 1: an even number of places ramifies."""
     assert len(ramified_places(a, b)) % 2 == 0
@@ -39,6 +39,8 @@ def test_named_quaternion_algebras():
     assert ramified_places(-1, 3) == (2, 3)
     assert ramified_places(2, 5) == (2, 5)
     assert ramified_places(4, 7) == ()
+    with pytest.raises(ValueError, match="not 0"):
+        ramified_places(0, 7)
 
 
 def test_quaternionic_multiplication_of_discriminant_6():

@@ -1,8 +1,10 @@
 """Forms that are eigenforms of real multiplication: L(λ), after McMullen."""
 
+import pickle
 from math import isqrt
 
 import flint
+import numpy as np
 import pytest
 from flint import acb, arb
 from support.enclosed_surfaces import l_shape_matrix
@@ -71,13 +73,16 @@ def test_square_tiled_surfaces_cover_a_torus(name):
 
 @pytest.mark.parametrize("name", OTHERS)
 def test_dz_is_no_eigenform_otherwise(name):
-    """√2 and 1 + √2 lie in a real quadratic field that fixes dz, but not by symmetric maps."""
+    """Only the rotation by 90°, an automorphism of every L(λ), has dz as eigenform: Z[i]."""
     with flint.ctx.workdps(50):
         found = dz_of_l_shape(OTHERS[name]())
     assert found.real_multiplication is None
     assert not found.splits
     assert found.symmetric.rank == 1
-    assert found.rank == (2 if "√2" in name else 1)
+    assert found.rank == 2
+    turn = next(M for M in found.lattice.basis if np.trace(M) == 0)
+    assert np.array_equal(turn @ turn, -np.eye(4))
+    assert (found.eigenvalue(turn) ** 2).overlaps(acb(-1))
     assert found.ring.name == "M₂(Q)"
 
 
@@ -105,3 +110,11 @@ def test_refusals():
         ip.eigenform_ring(ring, [1])
     with pytest.raises(ValueError, match="all a-periods may be 0"):
         ip.eigenform_ring(ring, [0, 0])
+
+
+def test_results_pickle():
+    with flint.ctx.workdps(50):
+        found = dz_of_l_shape(EIGENFORMS["golden"][0]())
+    again = pickle.loads(pickle.dumps(found))
+    assert str(again.real_multiplication) == "Q(√5)"
+    assert all(z.overlaps(w) for z, w in zip(again.form, found.form, strict=True))

@@ -1,5 +1,7 @@
 """The ring of endomorphisms."""
 
+import pickle
+
 import flint
 import numpy as np
 import pytest
@@ -105,7 +107,11 @@ def test_a_sequence():
 def test_products_are_added_until_it_is_a_ring():
     M = np.array([[0, 1], [-1, 0]])
     assert closed_ring(np.array([M])).rank == 2
-    assert closed_ring(np.array([[[0, 1], [0, 0]]])).rank == 4
+    shear = np.eye(4, dtype=np.int64)
+    shear[0, 1], shear[3, 2] = 1, 0
+    generated = closed_ring(shear[None])
+    assert all(generated.contains(M @ N) for M in generated.basis for N in generated.basis)
+    assert generated.rank == 3
 
 
 def test_evidence():
@@ -116,3 +122,14 @@ def test_evidence():
         assert evidence.left_over > 100
         assert evidence.checked_digits > 45
         assert evidence.excluded > 15
+
+
+def test_results_pickle():
+    with flint.ctx.workdps(50):
+        ring = ip.endomorphisms(POINTS["golden L"]())
+    _ = ring.name, ring.symmetric.rows
+    again = pickle.loads(pickle.dumps(ring))
+    assert again.matrix.contains(ring.matrix)
+    assert np.array_equal(again.basis, ring.basis)
+    assert again.name == ring.name
+    assert again.evidence == ring.evidence

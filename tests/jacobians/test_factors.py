@@ -1,5 +1,7 @@
 """The factors of a Jacobian."""
 
+import pickle
+
 import flint
 import numpy as np
 import pytest
@@ -140,3 +142,12 @@ def test_a_ring_that_is_known_is_used():
     with flint.ctx.workdps(50):
         ring = ip.endomorphisms(bolza())
     assert ip.jacobian_factors(ring).ring is ring
+
+
+def test_results_pickle():
+    with flint.ctx.workdps(50):
+        factors = ip.jacobian_factors(bolza())
+    assert str(factors.elliptic_curves[0].exact_j) == "8000"
+    again = pickle.loads(pickle.dumps(factors))
+    assert str(again) == "E²"
+    assert again.elliptic_curves[0].j.overlaps(factors.elliptic_curves[0].j)

@@ -1,5 +1,7 @@
 """Lattices of integer vectors and matrices."""
 
+from itertools import pairwise
+
 import flint
 import numpy as np
 import pytest
@@ -48,7 +50,7 @@ def test_frobenius_bases(numbers):
     assert np.array_equal(U.T @ S @ U, np.block([[zero, D], [-D, zero]]))
     assert abs(int(flint.fmpz_mat(U.tolist()).det())) == 1
     assert all(d > 0 for d in divisors)
-    assert all(e % d == 0 for d, e in zip(divisors, divisors[1:], strict=False))
+    assert all(e % d == 0 for d, e in pairwise(divisors))
 
 
 def test_coordinates():

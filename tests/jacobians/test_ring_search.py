@@ -12,11 +12,8 @@ import igl_periods as ip
 from igl_periods.jacobians.ring_search import in_marking_of, known_bits
 
 
-@pytest.mark.parametrize("seed", range(12))
-@pytest.mark.parametrize("g", [2, 3])
+@pytest.mark.parametrize(("g", "seed"), [*((2, seed) for seed in range(8)), (3, 0), (3, 1)])
 def test_random_points_have_no_endomorphisms_and_no_automorphisms(g, seed):
-    if g == 3 and seed > 3:
-        pytest.skip("genus 3 takes longer")
     Pi = random_point(g, seed)
     assert ip.endomorphisms(Pi).rank == 1
     assert ip.symplectic_automorphism_group(Pi).order == 2
@@ -42,16 +39,19 @@ def test_an_l_with_unequal_arms_has_only_the_integers():
 
 
 def test_an_enclosure_is_checked_with_more_digits():
-    e = ip.enclose(ip.surfaces.square_tiled_surface("omega_1"), digits=20).reduced()
-    ring = ip.endomorphisms(e, check_digits=40)
+    e = ip.enclose(ip.surfaces.square_tiled_surface("omega_1"), digits=15).reduced()
+    ring = ip.endomorphisms(e, check_digits=25)
     assert ring.rank == 8
-    assert ring.evidence.digits < 25
-    assert ring.evidence.checked_digits >= 40
+    assert ring.evidence.digits < 18
+    assert ring.evidence.checked_digits >= 25
     assert ring.matrix.overlaps(e.matrix)
 
 
 def test_enclosures_in_the_same_marking():
-    e = ip.enclose(generic_genus_two(), digits=8)
+    e = ip.enclose(generic_genus_two(), digits=12)
+    # A random cone metric: nothing of it is recognised, and it has no endomorphisms.
+    assert not any(x for row in e.reduced().recognize().entries for x in row)
+    assert ip.endomorphisms(e).rank == 1
     gamma = np.kron(np.array([[0, 1], [-1, 1]]), np.eye(2, dtype=np.int64))
     moved = e.change_basis(gamma)
     assert in_marking_of(e, moved).matrix.overlaps(moved.matrix)
