@@ -66,6 +66,9 @@ class CommutingMatrices:
     bits: int
     excluded: float
 
+    def __repr__(self) -> str:
+        return f"CommutingMatrices(rank {len(self.basis)}, from {self.bits} bits)"
+
     @property
     def random_height(self) -> float:
         """Logarithm of the entries that chance gives."""

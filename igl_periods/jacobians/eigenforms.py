@@ -53,6 +53,11 @@ class EigenformRing:
     form: tuple[flint.acb, ...]
     ring: EndomorphismRing
 
+    def __repr__(self) -> str:
+        field = self.real_multiplication
+        kind = "splits" if self.splits else f"real multiplication {field or 'Q'}"
+        return f"EigenformRing(rank {self.rank}, {kind})"
+
     def __reduce__(self) -> tuple[Any, ...]:
         balls = matrix_to_integers(flint.acb_mat([list(self.form)]))
         return _unpickled, (self.lattice, balls, self.ring)

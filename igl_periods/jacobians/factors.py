@@ -190,6 +190,9 @@ class IsotypicPart(Sequence[JacobianFactor]):
     def __getitem__(self, index: int | slice) -> JacobianFactor | tuple[JacobianFactor, ...]:
         return self.factors[index]
 
+    def __repr__(self) -> str:
+        return f"IsotypicPart({len(self)} × {self.factors[0]!r}, {self.algebra.name})"
+
     @property
     def multiplicity(self) -> int:
         """The number n of factors."""

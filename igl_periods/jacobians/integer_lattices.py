@@ -129,6 +129,10 @@ class MatrixLattice:
     def __post_init__(self) -> None:
         self.basis.flags.writeable = False
 
+    def __repr__(self) -> str:
+        n = self.basis.shape[1]
+        return f"MatrixLattice(rank {self.rank}, {n} × {n} matrices)"
+
     def __reduce__(self) -> tuple[Any, ...]:
         # What is kept in FLINT's matrices is computed again.
         return MatrixLattice, (self.basis.copy(),)

@@ -47,6 +47,9 @@ class Subvariety:
     def __post_init__(self) -> None:
         self.lattice.flags.writeable = False
 
+    def __repr__(self) -> str:
+        return f"Subvariety(dimension {self.dimension} of {len(self.lattice) // 2})"
+
     def __reduce__(self) -> tuple[Any, ...]:
         # What is kept in FLINT's matrices is computed again.
         return Subvariety, (self.lattice.copy(),)

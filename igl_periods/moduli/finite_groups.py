@@ -35,6 +35,9 @@ class FiniteGroup:
 
     table: Ints
 
+    def __repr__(self) -> str:
+        return f"FiniteGroup(order {self.order})"
+
     @property
     def order(self) -> int:
         """The number of elements."""

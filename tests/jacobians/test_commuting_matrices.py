@@ -33,6 +33,7 @@ def test_the_surface_of_bolza_has_eight():
     with flint.ctx.workdps(40):
         found = commuting_matrices(bolza(), 130)
     assert len(found.basis) == 8
+    assert repr(found).startswith("CommutingMatrices(rank 8, from 12")
     assert found.left_over > 100
     assert found.excluded > 20
 

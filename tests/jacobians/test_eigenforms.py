@@ -60,7 +60,9 @@ def test_dz_is_an_eigenform_of_real_multiplication(name):
 
 def test_golden_l_has_the_maximal_order():
     with flint.ctx.workdps(50):
-        assert dz_of_l_shape(EIGENFORMS["golden"][0]()).discriminant == 5
+        found = dz_of_l_shape(EIGENFORMS["golden"][0]())
+    assert found.discriminant == 5
+    assert repr(found) == "EigenformRing(rank 4, real multiplication Q(√5))"
 
 
 @pytest.mark.parametrize("name", RATIONAL)

@@ -93,6 +93,7 @@ def test_products_of_different_factors():
     assert [part.multiplicity for part in factors] == [1, 1]
     assert factors[1][0].exact_j is None
     assert factors[:1][0].is_simple
+    assert repr(factors[0]).endswith("Q(i))")
     assert "recognised, not proved" in factors._repr_html_()
 
 

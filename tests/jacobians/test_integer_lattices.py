@@ -56,6 +56,7 @@ def test_frobenius_bases(numbers):
 def test_coordinates():
     rng = np.random.default_rng(0)
     lattice = MatrixLattice(rng.integers(-5, 6, (4, 3, 3)))
+    assert repr(lattice) == "MatrixLattice(rank 4, 3 × 3 matrices)"
     c = [3, -1, 0, 7]
     M = np.tensordot(c, lattice.basis, axes=1)
     assert lattice.coordinates(M) == c

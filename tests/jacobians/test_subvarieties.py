@@ -20,6 +20,7 @@ def test_the_whole_jacobian():
     tau, divisors = whole(2).period_matrix(Pi)
     assert divisors == (1, 1)
     assert tau.overlaps(Pi)
+    assert repr(whole(2)) == "Subvariety(dimension 2 of 2)"
     assert whole(2).complement().dimension == 0
 
 
