@@ -31,7 +31,7 @@ def test_two_hundred_random_points(g):
 
 
 def test_an_l_with_unequal_arms_has_only_the_integers():
-    e = ip.enclose(unequal_arms(), digits=25)
+    e = ip.enclose(unequal_arms(), digits=20)
     ring = ip.endomorphisms(e)
     assert (ring.rank, ring.name) == (1, "Q")
     assert ring.evidence.excluded > 4
