@@ -50,7 +50,7 @@ from .errors import (
     RenderError,
 )
 from .meshes import MeshReport, load_mesh, sample_files, split_components
-from .complexes import DeltaComplex, double, intrinsic_delaunay
+from .complexes import DeltaComplex, algebraic_number, double, intrinsic_delaunay
 from .topology import (
     cohomology_basis,
     dual_homology_basis,
@@ -142,6 +142,7 @@ __all__ = [
     "sample_files",
     "MeshReport",
     "DeltaComplex",
+    "algebraic_number",
     "double",
     "intrinsic_delaunay",
     # topology
