@@ -38,7 +38,7 @@ from igl_periods.arrays import Complexes
 from igl_periods.complexes import DeltaComplex, by_kind, components_of, root_of, squares
 from igl_periods.errors import ComplexError
 
-from .permutations import checked_permutation
+from .permutations import read_permutations
 
 Gluing = list[tuple[tuple[int, int], tuple[int, int]]]
 _GLUINGS: dict[str, Gluing] = {
@@ -93,33 +93,29 @@ def square_tiled_period_matrix(name: str) -> Complexes:
     return _PERIOD_MATRICES[_known(name)].copy()
 
 
-def origami(right: ArrayLike, up: ArrayLike, n: int = 1) -> DeltaComplex:
+def origami(right: str | ArrayLike, up: str | ArrayLike, n: int = 1) -> DeltaComplex:
     """Glue unit squares by translations, as two permutations say.
 
     Parameters
     ----------
-    right, up : (N,) array-like of int
-        The square to the right of square k, and the one above it.
+    right, up : str or (N,) array-like of int
+        The square to the right of square k, and the one above it: cycles counted from 1, as
+        ``"(1,2,3)(4,5)"``, or images counted from 0.
     n : int
         Each square is divided into n × n.
 
     Raises
     ------
     ComplexError
-        If ``right`` and ``up`` are not permutations of the same squares 0, …, N − 1, or leave the
-        surface disconnected, or ``n < 1``.
+        If ``right`` and ``up`` are not permutations of the same squares, or leave the surface
+        disconnected, or ``n < 1``.
 
     Examples
     --------
-    >>> origami([1, 0, 2], [2, 1, 0]).genus
-    2
+    >>> origami("(1,2)", "(1,3)").genus, origami([1, 0, 2], [2, 1, 0]).genus
+    (2, 2)
     """
-    to_right, above = checked_permutation(right, "right"), checked_permutation(up, "up")
-    if to_right.size != above.size:
-        raise ComplexError(
-            f"right permutes {to_right.size} squares and up permutes {above.size}: they must "
-            "permute the same ones."
-        )
+    to_right, above = read_permutations({"right": right, "up": up})
     here = np.arange(above.size)
     n_parts, _ = components_of(np.tile(here, 2), np.concatenate([to_right, above]), here.size)
     if n_parts > 1:
