@@ -19,7 +19,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import lru_cache, partial
+from functools import cache, lru_cache, partial
 from typing import Any
 
 import flint
@@ -265,7 +265,7 @@ def square_root_of_number(square: Fraction | FieldElement) -> flint.arb:
     return ball_of(square, flint.ctx.prec).sqrt()
 
 
-@lru_cache(maxsize=None)
+@cache
 def cosine_field(n: int) -> NumberField:
     """The field of 2 cos(2π/n), n ≥ 3; where that is rational, Q with the generator 2 cos(2π/n)."""
     coefficients = tuple(int(c) for c in flint.fmpz_poly.cos_minpoly(n))
@@ -312,8 +312,9 @@ def quadratic_text(x: FieldElement) -> str:
 def _real_roots(coefficients: tuple[int, ...], bits: int) -> tuple[flint.arb, ...]:
     """The real roots of a polynomial without multiple roots, in increasing order."""
     with flint.ctx.workprec(bits + 16):
-        roots = [z for z, _ in flint.fmpz_poly(list(coefficients)).complex_roots()]
-    return tuple(sorted((z.real for z in roots if z.imag == 0), key=lambda x: float(x.mid())))
+        roots: Any = flint.fmpz_poly(list(coefficients)).complex_roots()
+    real = [z.real for z, _ in roots if z.imag == 0]
+    return tuple(sorted(real, key=lambda x: float(x.mid())))
 
 
 def _sum_of_balls(x: ComputedNumber, y: ComputedNumber, bits: int) -> flint.arb:

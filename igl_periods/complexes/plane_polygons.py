@@ -67,7 +67,7 @@ class PlanePolygon:
         return sign_of((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]))
 
     def is_between(self, i: int, j: int, k: int) -> bool:
-        """Whether corner k, on the line of the corners i and j, lies between them, ends included."""
+        """Whether corner k, on the line of i and j, lies between them, ends included."""
         p, q, r = (self.corners[c] for c in (i, j, k))
         return sign_of((r[0] - p[0]) * (r[0] - q[0]) + (r[1] - p[1]) * (r[1] - q[1])) <= 0
 

@@ -17,7 +17,7 @@ gluing that was handed over stay, its vertices are listed in the other order.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, partial
@@ -91,7 +91,7 @@ class GluedPolygons(ReadOnlyArrays):
         f, s = divmod(half_edge, 3)
         polygon, corners = self.vertices[int(self.polygon[f])], self.corners[f].tolist()
         p, q = polygon[corners[s - 2]], polygon[corners[s - 1]]
-        return q[0] - p[0], q[1] - p[1]  # type: ignore[operator]
+        return q[0] - p[0], q[1] - p[1]
 
 
 def glued_polygons(
@@ -143,7 +143,8 @@ def lengths_of_polygons(polygons: GluedPolygons, edge: Ints) -> LengthsByKind | 
         halves.setdefault(e, []).append(h)
     exact = polygons.is_exact
     kinds: dict[Any, int] = {}
-    formulas, kind = [], []
+    formulas: list[Callable[[], flint.arb]] = []
+    kind = []
     for e in range(len(halves)):
         if exact:
             x, y = polygons.vector(halves[e][0])

@@ -73,8 +73,8 @@ def pillowcase_cover(
         k = int(np.flatnonzero(g[3] != sigma[2])[0])
         raise ComplexError(
             "the product of the permutations is not 1: after g0, g1 and g2 the last one has to "
-            f"lead from sheet {k + 1} to {sigma[2][k] + 1}, and g3 leads to {g[3][k] + 1}. Products "
-            "are: first g0, then g1, g2, g3."
+            f"lead from sheet {k + 1} to {sigma[2][k] + 1}, and g3 leads to {g[3][k] + 1}. "
+            "Products are: first g0, then g1, g2, g3."
         )
     sigma.append(sheets)
     parts, _ = components_of(np.tile(sheets, 3), np.concatenate(sigma[:3]), sheets.size)

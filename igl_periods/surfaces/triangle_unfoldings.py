@@ -1,9 +1,9 @@
 r"""Translation surfaces of billiards in rational triangles, by unfolding.
 
 The reflections in the sides of a triangle with the angles aπ/n, bπ/n, cπ/n, n = a + b + c and
-gcd(a, b, c) = 1, generate, up to translations, a dihedral group of order 2n.  The triangles gT, g in
-that group, are glued: side s of gT to side s of g r_s T, r_s the reflection in side s of T.  That is
-a translation surface with the genus
+gcd(a, b, c) = 1, generate, up to translations, a dihedral group of order 2n.  The triangles gT, g
+in that group, are glued: side s of gT to side s of g r_s T, r_s the reflection in side s of T.
+That is a translation surface with the genus
 
 .. math:: g = 1 + \tfrac12 \bigl( n - \gcd(a, n) - \gcd(b, n) - \gcd(c, n) \bigr)
 
