@@ -94,6 +94,8 @@ def _lengths_document(K: DeltaComplex) -> dict[str, Any]:
 def _formula_text(formula: Any) -> str:
     if isinstance(formula, partial) and formula.func is square_root:
         return f"sqrt({formula.args[0]})"
+    if isinstance(formula, partial) and formula.func is _ball:
+        return str(formula.args[0])
     with flint.ctx.workprec(_BITS):
         return _ball_text(formula())
 

@@ -114,15 +114,16 @@ def glued_polygons(
     decided = [[(_decided(x), _decided(y)) for x, y in polygon] for polygon in vertices]
     planes = [PlanePolygon(f"polygon {p}", corners) for p, corners in enumerate(decided)]
     pairs = _checked_pairs(gluing, [len(v) for v in vertices])
-    for p, plane in enumerate(planes):
+    for plane in planes:
         plane.check_simple()
+    differ = _check_lengths(planes, pairs, rounded)
+    _check_connected(pairs, len(planes))
+    for p, plane in enumerate(planes):
         if sign_of(plane.doubled_area()) < 0:
             vertices[p] = [vertices[p][0], *vertices[p][:0:-1]]
             corners = [decided[p][0], *decided[p][:0:-1]]
             planes[p] = PlanePolygon(plane.name, corners)
             pairs = _turned(pairs, p, len(corners))
-    differ = _check_lengths(planes, pairs, rounded)
-    _check_connected(pairs, len(planes))
     triangles = [(p, t) for p, plane in enumerate(planes) for t in plane.triangles()]
     found = GluedPolygons(
         tuple(map(tuple, vertices)),
@@ -175,7 +176,8 @@ def _vertices(polygons: Iterable[Any], edges: bool) -> tuple[list[list[Point]], 
 
 def _from_edges(p: int, vectors: list[Point], rounded: bool) -> list[Point]:
     """The vertices of a polygon that starts at 0, from its sides as vectors."""
-    place: Point = (Fraction(0), Fraction(0))
+    of_this_kind = computed if isinstance(vectors[0][0], ComputedNumber) else Fraction
+    place: Point = (of_this_kind(Fraction(0)), of_this_kind(Fraction(0)))
     vertices = []
     for vector in vectors:
         vertices.append(place)
@@ -191,7 +193,7 @@ def _from_edges(p: int, vectors: list[Point], rounded: bool) -> list[Point]:
 
 
 def _added(x: Any, y: Any) -> Any:
-    return computed_sum(computed(x), y) if isinstance(y, ComputedNumber) else x + y
+    return computed_sum(x, y) if isinstance(y, ComputedNumber) else x + y
 
 
 def _decided(x: Any) -> Any:
