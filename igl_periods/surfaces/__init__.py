@@ -5,7 +5,8 @@ Each function returns a pair ``(V, F)`` or a :class:`~igl_periods.DeltaComplex`,
 some marking, so that they agree with computed ones up to the action of Sp(2g, Z).
 
 ===========================  ======================================================================
-glued squares                ``square_tiled_surface``, ``origami``, ``glued_rectangles``
+glued squares                ``square_tiled_surface``, ``origami``,
+                             ``quaternion_origami``, ``glued_rectangles``
 polygons                     ``regular_polygon``, ``double_polygon``, ``l_shape``,
                              ``l_shape_period_matrix``, ``weierstrass_prototypes``,
                              ``prototype_surface``
@@ -26,6 +27,7 @@ very high genus              ``thickened_lattice``, ``menger_sponge``, ``voxel_s
 from .square_tiled import (
     glued_rectangles,
     origami,
+    quaternion_origami,
     square_tiled_period_matrix,
     square_tiled_surface,
 )
@@ -63,6 +65,7 @@ from .identification import Identification, Match, identify, matrix_of
 __all__ = [
     "glued_rectangles",
     "origami",
+    "quaternion_origami",
     "square_tiled_period_matrix",
     "square_tiled_surface",
     "regular_polygon",

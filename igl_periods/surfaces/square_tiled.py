@@ -128,6 +128,30 @@ def origami(right: str | ArrayLike, up: str | ArrayLike, n: int = 1) -> DeltaCom
     return DeltaComplex.from_squares(pairs, n)
 
 
+def quaternion_origami(n: int = 1) -> DeltaComplex:
+    """Glue the origami of the quaternion group, the *eierlegende Wollmilchsau*; genus 3.
+
+    Its eight squares are the elements q of the group {±1, ±i, ±j, ±k}; to the right of q lies q i,
+    above it q j.  Four zeros of order 1; its curve is the Fermat quartic.
+
+    Parameters
+    ----------
+    n : int
+        Each square is divided into n × n.
+
+    References
+    ----------
+    Herrlich, Schmithüsen, "An extraordinary origami curve" (2008).
+
+    Examples
+    --------
+    >>> quaternion_origami().genus
+    3
+    """
+    # 1, i, −1, −i, k, j, −k, −j: i·i = −1, k·i = j; i·j = k, j·j = −1.
+    return origami("(1,2,3,4)(5,6,7,8)", "(1,6,3,8)(2,5,4,7)", n)
+
+
 def glued_rectangles(
     sizes: ArrayLike, gluing: Iterable[Sequence[Sequence[int]]], n: int = 1
 ) -> DeltaComplex:

@@ -41,7 +41,7 @@ def applied(matrix, polygon):
 
 def same_periods(K, L, tolerance=1e-10):
     """Whether two surfaces have equivalent period matrices."""
-    one, other = (ip.period_matrix(M, tolerance=1e-11) for M in (K, L))
+    one, other = (ip.enclose(M, digits=11) for M in (K, L))
     return bool(ip.symplectic_isomorphisms(one, other, tolerance=tolerance, limit=1))
 
 
