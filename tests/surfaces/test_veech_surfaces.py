@@ -63,7 +63,8 @@ def test_period_matrices_of_l_shapes(x):
     assert found.exact_area == 2 * x - 1
 
 
-def test_the_closed_form_of_l_in_balls():
+@pytest.mark.parametrize("digits", [15, pytest.param(50, marks=pytest.mark.slow)])
+def test_the_closed_form_of_l_in_balls(digits):
     e = ip.enclose(l_shape(ROOT), digits=digits)
     assert e.digits >= digits
     gamma = ip.symplectic_isomorphisms(e, l_shape_period_matrix(ROOT), tolerance=1e-12, limit=1)[0]
@@ -135,7 +136,6 @@ def test_the_prototype_of_discriminant_5_is_the_golden_l_stretched():
     stretched = [applied([(1, 0), (0, GOLDEN)], l_shape(GOLDEN).polygons.vertices[0])]
     K = ip.DeltaComplex.from_polygons(stretched, l_shape(GOLDEN).polygons.gluing)
     assert same_periods(K, prototype_surface(0, 1, 1, -1))
-    assert not same_periods(l_shape(GOLDEN), prototype_surface(0, 1, 1, -1), 1e-6)
 
 
 @pytest.mark.parametrize(
