@@ -31,7 +31,7 @@ DECIDING_BITS = 384
 
 
 @dataclass(frozen=True)
-class NumberField:
+class RealField:
     """The field Q(α) of a real root α.
 
     Attributes
@@ -65,12 +65,12 @@ class FieldElement:
 
     Attributes
     ----------
-    field : NumberField
+    field : RealField
     coefficients : tuple of Fraction
         As many as the degree of the field.
     """
 
-    field: NumberField
+    field: RealField
     coefficients: tuple[Fraction, ...]
 
     def __repr__(self) -> str:
@@ -211,13 +211,13 @@ def algebraic_number(coefficients: list[int] | tuple[int, ...], near: float) -> 
     given = list(coefficients)
     if not all(isinstance(c, int) and not isinstance(c, bool) for c in given) or not any(given[1:]):
         raise ComplexError(f"a polynomial is a list of integers, not constant: {given!r} is none.")
-    best: tuple[float, NumberField] | None = None
+    best: tuple[float, RealField] | None = None
     for factor, _ in flint.fmpz_poly(given).factor()[1]:
         integers = tuple(int(c) for c in factor)
         for index, root in enumerate(_real_roots(integers, 128)):
             distance = abs(float(root.mid()) - near)
             if best is None or distance < best[0]:
-                best = distance, NumberField(integers, index)
+                best = distance, RealField(integers, index)
     if best is None:
         raise ComplexError(f"the polynomial with the coefficients {given} has no real root.")
     return best[1].element(0, 1)
@@ -266,11 +266,11 @@ def square_root_of_number(square: Fraction | FieldElement) -> flint.arb:
 
 
 @cache
-def cosine_field(n: int) -> NumberField:
+def cosine_field(n: int) -> RealField:
     """The field of 2 cos(2π/n), n ≥ 3; where that is rational, Q with the generator 2 cos(2π/n)."""
     coefficients = tuple(int(c) for c in flint.fmpz_poly.cos_minpoly(n))
     # 2 cos(2π/n) is the largest of its conjugates 2 cos(2πk/n).
-    return NumberField(coefficients, len(_real_roots(coefficients, 64)) - 1)
+    return RealField(coefficients, len(_real_roots(coefficients, 64)) - 1)
 
 
 def cosine(k: int, n: int) -> FieldElement:
@@ -321,11 +321,11 @@ def _sum_of_balls(x: ComputedNumber, y: ComputedNumber, bits: int) -> flint.arb:
     return x.ball(bits) + y.ball(bits)
 
 
-def _modulus(field: NumberField) -> flint.fmpq_poly:
+def _modulus(field: RealField) -> flint.fmpq_poly:
     return flint.fmpq_poly(list(field.coefficients))
 
 
-def _reduced(field: NumberField, poly: flint.fmpq_poly) -> FieldElement:
+def _reduced(field: RealField, poly: flint.fmpq_poly) -> FieldElement:
     rest = poly % _modulus(field)
     found = [Fraction(int(c.p), int(c.q)) for c in rest]
     return FieldElement(field, tuple(found + [Fraction(0)] * (field.degree - len(found))))

@@ -29,7 +29,7 @@ import numpy as np
 from igl_periods.errors import ComplexError, MeshError
 
 from .exact_lengths import LengthsByKind, by_kind, square_root
-from .exact_numbers import ComputedNumber, FieldElement, Number, NumberField
+from .exact_numbers import ComputedNumber, FieldElement, Number, RealField
 from .gluings import reversing_sides
 from .polygon_gluings import GluedPolygons
 
@@ -146,7 +146,7 @@ def _number_document(x: Number, rounded: bool) -> Any:
 
 def _polygons(document: Any) -> tuple[Any, Any]:
     field = document.get("field")
-    known = None if field is None else NumberField(tuple(field["polynomial"]), field["root"])
+    known = None if field is None else RealField(tuple(field["polynomial"]), field["root"])
     vertices = [
         [tuple(_number(c, known) for c in vertex) for vertex in polygon]
         for polygon in document["vertices"]
@@ -154,7 +154,7 @@ def _polygons(document: Any) -> tuple[Any, Any]:
     return vertices, [tuple(map(tuple, pair)) for pair in document["gluing"]]
 
 
-def _number(x: Any, field: NumberField | None) -> Any:
+def _number(x: Any, field: RealField | None) -> Any:
     if isinstance(x, list):
         if field is None:
             raise ValueError("a coordinate in a field that is not given")

@@ -5,6 +5,7 @@ integers, fractions, texts like ``"3/4"``    rational
 doubles, also in complex numbers             rational, and marked as rounded
 ``flint.fmpz``, ``fmpq``, exact ``arb``      rational
 elements of number fields, ours or Sage's    algebraic
+recognised numbers that are real             algebraic
 ``flint.arb``, ``acb``                       the ball, which does not shrink
 SymPy expressions                            rational, or functions of the precision (``evalf``)
 functions of the precision in bits           balls that they give
@@ -67,6 +68,8 @@ def read_number(x: Any) -> tuple[Number, bool]:
         return Fraction(int(q.p), int(q.q)), False
     if isinstance(x, flint.arb):
         return _from_ball(x), False
+    if getattr(x, "is_real", False) is True and hasattr(x, "polynomial") and hasattr(x, "near"):
+        return algebraic_number(x.polynomial, complex(x.near).real), False
     if hasattr(x, "parent") and hasattr(x, "minpoly"):
         return _from_sage(x), False
     if getattr(x, "is_Rational", False):

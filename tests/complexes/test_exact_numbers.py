@@ -36,7 +36,9 @@ def test_roots_satisfy_their_polynomials_exactly():
 def test_the_axioms_of_a_field(seed):
     rng = np.random.default_rng(seed)
     field = CUBE_ROOT.field
-    x, y, z = (field.element(*(Fraction(int(c), 7) for c in rng.integers(-9, 10, 3))) for _ in "xyz")
+    x, y, z = (
+        field.element(*(Fraction(int(c), 7) for c in rng.integers(-9, 10, 3))) for _ in "xyz"
+    )
     assert (x + y) * z == x * z + y * z
     assert x * (y * z) == (x * y) * z
     assert x - x == 0

@@ -19,8 +19,11 @@ def surfaces():
     yield "squares", ip.surfaces.origami("(1,2)", "(1,3)", 2)
     yield "klein", ip.surfaces.regular_map_surface("klein", 2)
     yield "bring", ip.surfaces.regular_map_surface("bring")
-    yield "rounded", ip.DeltaComplex.from_polygons(
-        [np.exp(2j * np.pi * np.arange(10) / 10)], [((0, k), (0, k + 5)) for k in range(5)]
+    yield (
+        "rounded",
+        ip.DeltaComplex.from_polygons(
+            [np.exp(2j * np.pi * np.arange(10) / 10)], [((0, k), (0, k + 5)) for k in range(5)]
+        ),
     )
     yield "lengths alone", ip.surfaces.regular_map_surface("klein", 1).components()[0]
     yield "boundary", ip.DeltaComplex.from_lengths([[1, 1, 1]], [[0, 1, 2]])

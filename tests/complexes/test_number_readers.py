@@ -38,7 +38,7 @@ def test_only_floating_point_is_rounded():
 def test_balls_stay_what_they_are():
     x = exact_number(flint.arb(2, 0.5))
     assert isinstance(x, ComputedNumber)
-    assert x.ball(500).rad() == 0.5
+    assert float(x.ball(500).rad()) == pytest.approx(0.5)
     (x, y), rounded = read_point(flint.acb(1, 2).sqrt())
     assert not rounded
     assert (float(x), float(y)) == pytest.approx((1.272019649514069, 0.7861513777574233))
@@ -81,7 +81,7 @@ def test_sympy():
         golden = ball_of(exact_number((1 + sympy.sqrt(5)) / 2), 300)
         assert (golden * golden - golden - 1).contains(0)
         assert float(golden.rad()) < 1e-88
-    (x, y), rounded = read_point(sympy.exp(sympy.I * sympy.pi / 7))
+    (_, y), rounded = read_point(sympy.exp(sympy.I * sympy.pi / 7))
     assert not rounded
     assert float(y) == pytest.approx(np.sin(np.pi / 7))
     with pytest.raises(ip.ComplexError, match="x is no real number"):
@@ -97,6 +97,12 @@ def test_elements_of_number_fields_of_sage():
     # Without a generator there is the minimal polynomial: (1 + √5)/2 again.
     assert repr(exact_number(field([0, 1]).without_its_field())) == "1/2 + 1/2 √5"
     assert exact_number(SageRational(2, 6).without_its_field()) == Fraction(1, 3)
+
+
+def test_recognised_numbers():
+    with flint.ctx.workprec(300):
+        golden = ip.recognize((1 + flint.arb(5).sqrt()) / 2)
+    assert repr(exact_number(golden)) == "1/2 + 1/2 √5"
 
 
 @pytest.mark.parametrize(

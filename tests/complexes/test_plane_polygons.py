@@ -88,6 +88,8 @@ def test_corners_that_are_not_known_well_enough():
     import flint
 
     wide = flint.arb(0, 1)
-    shape = PlanePolygon("polygon 0", [(wide, wide), (wide + 1, wide), (wide, wide + 1), (wide, wide)])
+    shape = PlanePolygon(
+        "polygon 0", [(wide, wide), (wide + 1, wide), (wide, wide + 1), (wide, wide)]
+    )
     with pytest.raises(ip.ComplexError, match="cannot be divided into triangles"):
         shape.triangles()

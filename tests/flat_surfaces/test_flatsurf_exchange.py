@@ -108,5 +108,5 @@ def test_what_is_no_closed_surface():
     # A similarity that is no isometry.
     larger = rational([(0, 0), (2, 0), (2, 2), (0, 2)])
     pairs = [(("a", k), ("b", (k + 2) % 4)) for k in range(4)]
-    with pytest.raises(ip.ComplexError, match="has length 1 and .* 2: they must agree exactly"):
+    with pytest.raises(ip.ComplexError, match=r"has length 1 and .* 2: they must agree exactly"):
         ip.from_flatsurf(SageSurface({"a": square, "b": larger}, pairs))

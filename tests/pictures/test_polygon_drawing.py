@@ -39,8 +39,7 @@ def test_sides_and_vertices(K, tmp_path):
     # Glued by translations: each letter twice, without a prime.
     assert set(letters(svg).values()) == {2}
     assert len(letters(svg)) == sides // 2
-    shown = [e for e in svg.iter(f"{SVG}circle")]
-    assert len(shown) >= sides
+    assert len(list(svg.iter(f"{SVG}circle"))) >= sides
     assert "NaN" not in ET.tostring(svg, encoding="unicode")
 
 
@@ -75,8 +74,8 @@ def test_rotations_have_primes_and_cone_points_their_angles(tmp_path):
     octagon = drawn(ip.surfaces.regular_polygon(8), tmp_path)
     assert "total angle 6π" in [e.text for e in octagon.iter(f"{SVG}text")]
     # Marked points are hollow.
-    hollow = [e for e in drawn(ip.surfaces.triangle_unfolding(1, 3, 4), tmp_path).iter(f"{SVG}circle")
-              if e.get("fill") == "white"]  # fmt: skip
+    unfolded = drawn(ip.surfaces.triangle_unfolding(1, 3, 4), tmp_path)
+    hollow = [e for e in unfolded.iter(f"{SVG}circle") if e.get("fill") == "white"]
     assert hollow
 
 

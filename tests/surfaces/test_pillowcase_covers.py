@@ -59,7 +59,7 @@ def test_the_torus():
 @pytest.mark.parametrize(
     ("g", "message"),
     [
-        (("(1,2)", "(1,2)", "(1,2)", "(1)(2)"), "the product of the permutations is not 1: .* sheet 1 to 2"),
+        (("(1,2)", "(1,2)", "(1,2)", "(1)(2)"), "the product of the permutations is not 1"),
         (("()", "(1)", "(2)", ""), "the cover is not connected: its sheets fall into 2 parts"),
         (("(1,2", "(1)", "(2)"), "g0 is no product of cycles"),
         (([0, 1], [0, 1, 2], [0, 1]), "g0 permutes 2 things and g1 permutes 3"),
