@@ -185,7 +185,7 @@ def flat_surface_report(K: DeltaComplex) -> FlatSurfaceReport:
       holonomy     order 1, to 100 digits, from lengths in balls
       cone angles  1 times 2π
       area         1.000000000000
-      periods      1, i
+      periods      1, -1 + i
     """
     unfolded = development(K)
     orders = [order_of(r, unfolded.known_by) for r in unfolded.rotations.values()]

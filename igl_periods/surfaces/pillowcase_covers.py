@@ -26,6 +26,7 @@ from igl_periods.complexes import DeltaComplex, components_of
 from igl_periods.errors import ComplexError
 
 from .permutations import read_permutations
+from .square_tiled import placed_squares
 
 # The side of the back square, seen from behind, at each side of the front.
 _BACK = (0, 3, 2, 1)
@@ -84,4 +85,5 @@ def pillowcase_cover(
     pairs = [
         ((k, side), (d + int(sigma[side][k]), _BACK[side])) for k in range(d) for side in range(4)
     ]
-    return DeltaComplex.from_squares(pairs, n)
+    places = [(k, row) for row in (0, 1) for k in range(d)]
+    return placed_squares(places, pairs, n)

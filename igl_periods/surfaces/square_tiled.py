@@ -34,12 +34,14 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import ArrayLike
 
-from igl_periods.arrays import Complexes
+from igl_periods.arrays import Complexes, Ints
 from igl_periods.complexes import DeltaComplex, by_kind, components_of, root_of, squares
 from igl_periods.errors import ComplexError
 
 from .permutations import read_permutations
 
+# More squares than this are glued without their places in the plane.
+_MOST_POLYGONS = 500
 Gluing = list[tuple[tuple[int, int], tuple[int, int]]]
 _GLUINGS: dict[str, Gluing] = {
     "omega_1": [
@@ -125,7 +127,28 @@ def origami(right: str | ArrayLike, up: str | ArrayLike, n: int = 1) -> DeltaCom
         )
     pairs = [((k, 1), (r, 3)) for k, r in enumerate(to_right.tolist())]
     pairs += [((k, 2), (u, 0)) for k, u in enumerate(above.tolist())]
-    return DeltaComplex.from_squares(pairs, n)
+    return placed_squares(_in_rows(to_right), pairs, n)
+
+
+def placed_squares(places: list[tuple[int, int]], gluing: Gluing, n: int) -> DeltaComplex:
+    """Unit squares with these lower left corners, as polygons where they are few and whole."""
+    if n != 1 or len(places) > _MOST_POLYGONS:
+        return DeltaComplex.from_squares(gluing, n)
+    squares = [[(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)] for x, y in places]
+    return DeltaComplex.from_polygons(squares, gluing)
+
+
+def _in_rows(right: Ints) -> list[tuple[int, int]]:
+    """Places of the squares of an origami in the plane: a row for each horizontal cylinder."""
+    place: dict[int, tuple[int, int]] = {}
+    row = 0
+    for start in range(right.size):
+        k, column = start, 0
+        while k not in place:
+            place[k] = column, row
+            k, column = int(right[k]), column + 1
+        row += column > 0
+    return [place[k] for k in range(right.size)]
 
 
 def quaternion_origami(n: int = 1) -> DeltaComplex:

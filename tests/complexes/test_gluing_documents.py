@@ -61,7 +61,7 @@ def test_numbers_are_texts():
     assert document["polygons"]["vertices"][0][2] == [["0", "1"], "0"]
     document = json.loads(ip.surfaces.l_shape("3/2").to_json())
     assert document["polygons"]["vertices"][0][2] == ["3/2", "0"]
-    document = json.loads(ip.surfaces.origami([1, 0, 2], [2, 1, 0]).to_json())
+    document = json.loads(ip.surfaces.square_tiled_surface("omega_1").to_json())
     assert document["exact"]["lengths"] == ["sqrt(1)", "sqrt(2)"]
 
 

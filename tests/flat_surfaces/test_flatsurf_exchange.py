@@ -104,7 +104,7 @@ def test_what_is_no_closed_surface():
     with pytest.raises(ip.ComplexError, match="more than 100000 polygons"):
         ip.from_flatsurf(Endless({}, []))
     with pytest.raises(ip.ComplexError, match="not glued from polygons with exact coordinates"):
-        ip.to_flatsurf_dict(ip.surfaces.origami("(1,2)", "(1,3)"))
+        ip.to_flatsurf_dict(ip.surfaces.origami("(1,2)", "(1,3)", 2))
     # A similarity that is no isometry.
     larger = rational([(0, 0), (2, 0), (2, 2), (0, 2)])
     pairs = [(("a", k), ("b", (k + 2) % 4)) for k in range(4)]

@@ -81,7 +81,7 @@ def test_rotations_have_primes_and_cone_points_their_angles(tmp_path):
 
 def test_what_cannot_be_drawn(tmp_path):
     with pytest.raises(ip.RenderError, match="not glued from polygons"):
-        render_polygons(ip.surfaces.origami("(1,2)", "(1,3)"), tmp_path / "picture.svg")
+        render_polygons(ip.surfaces.origami("(1,2)", "(1,3)", 2), tmp_path / "picture.svg")
     with pytest.raises(ip.RenderError, match="width = 10: a picture of 100 pixels"):
         render_polygons(PILLOW, tmp_path / "picture.svg", width=10)
     with pytest.raises(FileNotFoundError, match="there is no folder"):

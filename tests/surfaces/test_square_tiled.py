@@ -261,3 +261,15 @@ def test_the_quaternion_origami_is_the_fermat_quartic():
 
     found = ip.identify(ip.enclose(quaternion_origami(), digits=11))
     assert found[0].surface.name == "Fermat quartic"
+
+
+def test_few_squares_are_polygons_and_many_are_the_same_surface():
+    one, four = origami("(1,2)", "(1,3)"), origami("(1,2)", "(1,3)", 2)
+    assert one.polygons is not None
+    assert four.polygons is None
+    assert [p[0] for p in one.polygons.vertices] == [(0, 0), (1, 0), (0, 1)]
+    rotation = np.roll(np.arange(501), 1)
+    K = origami(rotation, rotation)
+    assert K.polygons is None
+    assert K.genus == 1
+    assert ip.symplectic_isomorphisms(ip.period_matrix(one), ip.period_matrix(four), tolerance=0.1)

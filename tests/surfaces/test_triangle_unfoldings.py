@@ -8,7 +8,7 @@ from support.glued_polygons import same_periods
 import igl_periods as ip
 from igl_periods.surfaces import double_polygon, regular_polygon, triangle_unfolding
 
-TRIANGLES = [(1, 1, 1), (1, 1, 2), (1, 3, 4), (1, 1, 3), (1, 2, 4), (2, 3, 4), (3, 4, 5), 
+TRIANGLES = [(1, 1, 1), (1, 1, 2), (1, 3, 4), (1, 1, 3), (1, 2, 4), (2, 3, 4), (3, 4, 5),
              (1, 4, 11), (2, 2, 3)]  # fmt: skip
 
 
