@@ -49,9 +49,10 @@ class PlanePolygon:
 
     @cached_property
     def xy(self) -> Floats:
-        """The corners in floating point, moved to their mean; (d, 2)."""
-        points = np.array([[float(x), float(y)] for x, y in self.corners])
-        return points - points.mean(axis=0)
+        """The corners in floating point, seen from the first one; (d, 2)."""
+        # Far from the origin the difference has to be taken before rounding.
+        x0, y0 = self.corners[0]
+        return np.array([[float(x - x0), float(y - y0)] for x, y in self.corners])
 
     @cached_property
     def _margin(self) -> float:

@@ -163,7 +163,16 @@ def lengths_of_polygons(polygons: GluedPolygons, edge: Ints) -> LengthsByKind | 
 
 def _vertices(polygons: Iterable[Any], edges: bool) -> tuple[list[list[Point]], bool]:
     """The vertices of all polygons in one kind of numbers, and whether any are doubles."""
-    read = [read_points(list(polygon)) for polygon in polygons]
+    try:
+        listed = [list(polygon) for polygon in polygons]
+    except TypeError as error:
+        raise ComplexError(f"polygons are lists of points: {error}.") from error
+    short = [p for p, polygon in enumerate(listed) if len(polygon) < 3]
+    if short:
+        raise ComplexError(
+            f"polygon {short[0]} has {len(listed[short[0]])} corners: a polygon has three at least."
+        )
+    read = [read_points(polygon) for polygon in listed]
     if not read:
         raise ComplexError("there is no polygon: a surface is glued from one at least.")
     points, rounded = [p for p, _ in read], any(r for _, r in read)

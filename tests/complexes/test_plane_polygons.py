@@ -54,6 +54,14 @@ def test_marked_points_on_a_side_are_corners_of_triangles():
     assert all(PlanePolygon("", [shape.corners[c] for c in t]).doubled_area() > 0 for t in F)
 
 
+@pytest.mark.parametrize("far", [10**9, 10**30])
+def test_polygons_far_from_the_origin(far):
+    for shape in (comb(4), spiral(2)):
+        moved = polygon(*((x + far, y - far) for x, y in shape.corners))
+        moved.check_simple()
+        assert moved.triangles() == shape.triangles()
+
+
 def test_what_double_precision_cannot_decide():
     tiny = Fraction(1, 10**40)
     assert polygon((0, 0), (1, tiny), (2, 0), (1, 1)).orientation(0, 1, 2) == -1

@@ -205,6 +205,9 @@ SQUARE = [0, 1, 1 + 1j, 1j]
     ("polygons", "gluing", "message"),
     [
         ([], [], "there is no polygon"),
+        (3, [], "polygons are lists of points"),
+        ([3], [], "polygons are lists of points"),
+        ([[0, 1, 1j], []], [], "polygon 1 has 0 corners"),
         ([SQUARE], [(0, 0)], r"a list of pairs \(\(polygon, side\), \(polygon, side\)\)"),
         ([SQUARE], [((0, 0), (0, 2), (0, 1))], "a list of pairs"),
         ([SQUARE], None, "a list of pairs"),
