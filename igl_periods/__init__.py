@@ -27,6 +27,7 @@ page.  In reading order:
 ``forms``          the discrete theory of the paper on Λ = Γ ⊕ Γ*
 ``deformations``   Π* → a surface that has it
 ``differentials``  Π on the mesh → holomorphic forms, parametrization, Abel–Jacobi
+``jacobians``      Π → endomorphisms of the Jacobian, and its factors
 ``domains``        domains with holes → capacities and extremal lengths
 ``surfaces``       reference surfaces, their exact Π, and which of them a Π is
 ``pictures``, ``reports``, ``cli``, ``batch``, ``distributed``, ``machine``
@@ -128,6 +129,14 @@ from .differentials import (
     most_even_form,
     parametrize,
 )
+from .jacobians import (
+    EigenformRing,
+    EndomorphismRing,
+    JacobianFactors,
+    eigenform_ring,
+    endomorphisms,
+    jacobian_factors,
+)
 from .domains import (
     CapacityEnclosure,
     CapacityMatrix,
@@ -224,6 +233,13 @@ __all__ = [
     "Identification",
     "catalogue",
     "surfaces",
+    # Jacobians
+    "endomorphisms",
+    "EndomorphismRing",
+    "eigenform_ring",
+    "EigenformRing",
+    "jacobian_factors",
+    "JacobianFactors",
     # surfaces with the period matrix that one wants
     "deform_to",
     "lengths_with",
