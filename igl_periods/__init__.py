@@ -22,6 +22,7 @@ page.  In reading order:
 ``symplectic``     J, integer bases, the Williamson form: what D and Π have in common
 ``siegel``         Π → γ·Π reduced
 ``moduli``         Π₁, Π₂ → equivalence, symmetries, invariants
+``theta_functions``  θ(z, Π) with characteristics, spin structures
 ``forms``          the discrete theory of the paper on Λ = Γ ⊕ Γ*
 ``deformations``   Π* → a surface that has it
 ``differentials``  Π on the mesh → holomorphic forms, parametrization, Abel–Jacobi
@@ -99,6 +100,7 @@ from .moduli import (
     theta_constants,
     theta_derivatives,
 )
+from .theta_functions import SpinStructure, spin_structures, theta
 from .forms import (
     DoubleGraph,
     double_graph,
@@ -194,6 +196,9 @@ __all__ = [
     "theta_derivatives",
     "hyperelliptic_point",
     "is_hyperelliptic",
+    "theta",
+    "SpinStructure",
+    "spin_structures",
     "recognise_quadratic",
     "recognise_entries",
     "identify",
