@@ -20,11 +20,13 @@ page.  In reading order:
 ``periods``        D → Π and its bound
 ``enclosures``     Π in balls, to as many digits as are asked for
 ``symplectic``     J, integer bases, the Williamson form: what D and Π have in common
+``recognition``    numbers in balls → algebraic numbers, with the evidence
 ``siegel``         Π → γ·Π reduced
 ``moduli``         Π₁, Π₂ → equivalence, symmetries, invariants
-``theta_functions``  θ(z, Π) with characteristics, spin structures
+``riemann_theta``  θ(z, Π) with characteristics, spin structures
 ``forms``          the discrete theory of the paper on Λ = Γ ⊕ Γ*
 ``deformations``   Π* → a surface that has it
+``curves``         Π in balls → invariants, the equation of the curve
 ``differentials``  Π on the mesh → holomorphic forms, parametrization, Abel–Jacobi
 ``domains``        domains with holes → capacities and extremal lengths
 ``surfaces``       reference surfaces, their exact Π, and which of them a Π is
@@ -42,6 +44,7 @@ from . import forms, genus_two, surfaces
 from .errors import (
     BatchError,
     ComplexError,
+    CurveError,
     EnumerationLimitError,
     MemoryLimitError,
     MeshError,
@@ -52,6 +55,12 @@ from .errors import (
 )
 from .meshes import MeshReport, load_mesh, sample_files, split_components
 from .complexes import DeltaComplex, double, intrinsic_delaunay
+from .recognition import (
+    AlgebraicNumber,
+    NumberField,
+    RecognisedMatrix,
+    recognize,
+)
 from .topology import (
     cohomology_basis,
     dual_homology_basis,
@@ -100,7 +109,7 @@ from .moduli import (
     theta_constants,
     theta_derivatives,
 )
-from .theta_functions import SpinStructure, spin_structures, theta
+from .riemann_theta import SpinStructure, spin_structures, theta
 from .forms import (
     DoubleGraph,
     double_graph,
@@ -115,6 +124,15 @@ from .differentials import (
     form_of_real_periods,
     most_even_form,
     parametrize,
+)
+from .curves import (
+    AlgebraicCurve,
+    curve,
+    curve_of_form,
+    to_latex,
+    to_magma,
+    to_pari,
+    to_sage,
 )
 from .domains import (
     CapacityEnclosure,
@@ -196,9 +214,20 @@ __all__ = [
     "theta_derivatives",
     "hyperelliptic_point",
     "is_hyperelliptic",
+    "curve",
+    "curve_of_form",
+    "AlgebraicCurve",
+    "to_latex",
+    "to_sage",
+    "to_magma",
+    "to_pari",
     "theta",
     "SpinStructure",
     "spin_structures",
+    "recognize",
+    "AlgebraicNumber",
+    "RecognisedMatrix",
+    "NumberField",
     "recognise_quadratic",
     "recognise_entries",
     "identify",
@@ -232,6 +261,7 @@ __all__ = [
     "PeriodsError",
     "MeshError",
     "ComplexError",
+    "CurveError",
     "NotASiegelPointError",
     "MemoryLimitError",
     "MissingExtraError",

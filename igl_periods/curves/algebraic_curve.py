@@ -72,8 +72,8 @@ class AlgebraicCurve:
 
     genus: int
     model: str
-    coefficients: Mapping[Exponents, flint.acb]
-    recognised: Mapping[Exponents, AlgebraicNumber | None]
+    coefficients: Mapping[Any, flint.acb]
+    recognised: Mapping[Any, AlgebraicNumber | None]
     invariants: Mapping[str, flint.acb]
     weights: tuple[int, ...]
     branch_points: tuple[tuple[flint.acb, flint.acb], ...] = ()
@@ -85,8 +85,10 @@ class AlgebraicCurve:
     @property
     def is_hyperelliptic(self) -> bool | None:
         """Whether the curve is a double cover of the line; None if that is not found out."""
-        return None if self.model == "unknown" and self.genus > LARGEST_DECIDED else (
-            self.model in ("elliptic", "hyperelliptic")
+        return (
+            None
+            if self.model == "unknown" and self.genus > LARGEST_DECIDED
+            else (self.model in ("elliptic", "hyperelliptic"))
         )
 
     @property
@@ -190,7 +192,7 @@ def _restored_curve(fields: Any) -> AlgebraicCurve:
     return AlgebraicCurve(**restored(fields))
 
 
-def polynomial_text(coefficients: Mapping[Exponents, str], names: tuple[str, ...]) -> str:
+def polynomial_text(coefficients: Mapping[Any, str], names: tuple[str, ...]) -> str:
     """A polynomial, highest powers first.
 
     Examples

@@ -39,7 +39,7 @@ import flint
 import numpy as np
 
 from igl_periods.errors import CurveError
-from igl_periods.theta_functions import SpinStructure, spin_structures
+from igl_periods.riemann_theta import SpinStructure, spin_structures
 
 from .binary_forms import Point
 
@@ -49,7 +49,7 @@ LARGEST_GENUS = 5
 
 
 def branch_points(constants: flint.acb_mat) -> list[Point]:
-    """The 2g + 2 branch points, three of which are 1, 0, ∞ in this order: (1 : 1), (0 : 1), (1 : 0).
+    """The 2g + 2 branch points, the first three of which are 1, 0, ∞.
 
     Parameters
     ----------
@@ -71,7 +71,11 @@ def branch_points(constants: flint.acb_mat) -> list[Point]:
     values = {
         (*s.a, *s.b): z**2 for s, z in zip(spin_structures(g), constants.entries(), strict=True)
     }
-    points = [(flint.acb(1), flint.acb(1)), (flint.acb(0), flint.acb(1)), (flint.acb(1), flint.acb(0))]
+    points = [
+        (flint.acb(1), flint.acb(1)),
+        (flint.acb(0), flint.acb(1)),
+        (flint.acb(1), flint.acb(0)),
+    ]
     return points + [(_cross_ratio(labels, values, n), flint.acb(1)) for n in range(3, 2 * g + 2)]
 
 

@@ -18,7 +18,6 @@ from dataclasses import dataclass
 from itertools import permutations
 from typing import Any
 
-import flint
 import numpy as np
 
 from igl_periods.arrays import Complexes
@@ -92,7 +91,7 @@ def around_fixed_points(points: list[Point], rotation: Rotation) -> list[Point] 
     for eigenvalue in ((a + d + difference) / 2, (a + d - difference) / 2):
         choices = [(b, eigenvalue - a), (eigenvalue - d, c)]
         fixed.append(max(choices, key=lambda v: float(sum(abs(x).lower() for x in v))))
-    return [tuple(x * w - z * v for v, w in fixed) for x, z in points]  # type: ignore[misc]
+    return [tuple(x * w - z * v for v, w in fixed) for x, z in points]
 
 
 def _unit_vectors(points: list[Point]) -> Complexes:

@@ -6,8 +6,8 @@ simple coefficients are tried in turn:
 * those of a rotation x ↦ ζx that permutes them (:mod:`~igl_periods.curves.branch_symmetries`), with
   a scale that makes two coefficients equal up to sign;
 * for a sextic with the involution x ↦ −x, c₃X³ + c₂X² + c₁X + c₀ = 0 with X = x²: with
-  s = c₂³/(c₃² c₀), s̄ = c₁³/(c₀² c₃), u = c₁c₂/(c₀c₃), s s̄ = u³, the two fixed points are conjugate over
-  the field of s + s̄ and u, and
+  s = c₂³/(c₃² c₀), s̄ = c₁³/(c₀² c₃), u = c₁c₂/(c₀c₃), s s̄ = u³, the two fixed points are
+  conjugate over the field of s + s̄ and u, and
 
   .. math:: s^2 x^6 + u^2 s\, x^4 z^2 + u^2 \bar s\, x^2 z^4 + \bar s^2 z^6, \qquad
             x = p + (s - \bar s)\, q, \quad z = p - (s - \bar s)\, q,
@@ -29,6 +29,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 from math import gcd
 
 import flint
@@ -43,6 +44,8 @@ from .weighted_points import absolute_invariants, vanishes
 
 # Conjugacy classes with the same order and fixed points are tried by so many elements.
 _REPRESENTATIVES = 3
+# Two coefficients ±1.
+_SIMPLEST = (1, 4, 2)
 ZERO = AlgebraicNumber((0, 1), 0j)
 
 
@@ -88,6 +91,8 @@ def model_of_branch_points(points: list[Point], degree: int) -> RecognisedForm |
             found = recognised_form(form, degree)
             if found is not None and (best is None or found.cost < best.cost):
                 best = found
+            if best is not None and best.cost <= _SIMPLEST:
+                return best
         if best is not None and best.degree == 1:
             return best
     return best
@@ -141,9 +146,9 @@ def _representatives(found: Iterable[Rotation]) -> Iterator[Rotation]:
 
 
 def _scaled(form: Form, order: int) -> Iterator[Form]:
-    """x ↦ t x with two neighbouring coefficients c_p, c_q equal up to sign, and c_q = 1."""
+    """X ↦ t x with two neighbouring coefficients c_p, c_q equal up to sign, and c_q = 1."""
     places = [k for k, c in enumerate(form) if not c.contains(0)]
-    for p, q in zip(places, places[1:], strict=False):
+    for p, q in pairwise(places):
         gap = (q - p) // gcd(order, q - p)
         # Two terms make xⁿ − 1 and not xⁿ + 1.
         for sign in (-1, 1) if len(places) == 2 else (1, -1):

@@ -6,11 +6,11 @@ six points that a cubic cuts out of it:
 .. math:: \sum A_{ij} x_i x_j = 0, \qquad \sum a_{ijk} x_i x_j x_k = 0, \qquad
           A_{ij} = (y_i, y_j)_2, \quad a_{ijk} = (((f, y_i)_2, y_j)_2, y_k)_2 .
 
-A_{ij} and a_{ijk} are invariants, of degrees d_i + d_j and 1 + d_i + d_j + d_k, d = (3, 5, 7), all of
-them even; divided by powers of one of degree 2 they lie in the field of moduli.  If that is Q, the
-curve has a model over Q iff the conic has a rational point: its parametrization, put into the
-cubic, is the sextic.  The construction fails where y₁, y₂, y₃ are linearly dependent, which is where
-the curve has more involutions than one; then it has a model over its field of moduli anyway
+A_{ij} and a_{ijk} are invariants, of degrees d_i + d_j and 1 + d_i + d_j + d_k, d = (3, 5, 7), all
+of them even; divided by powers of one of degree 2 they lie in the field of moduli.  If that is Q,
+the curve has a model over Q iff the conic has a rational point: its parametrization, put into the
+cubic, is the sextic.  The construction fails where y₁, y₂, y₃ are linearly dependent, which is
+where the curve has more involutions than one; then it has a model over its field of moduli anyway
 (:mod:`~igl_periods.curves.hyperelliptic_models`).
 
 References
@@ -71,7 +71,10 @@ def mestre_sextic(f: Form) -> tuple[RecognisedForm | None, str | None]:
     if len(recognised) < len(numbers):
         return None, None
     known = [Fraction(-x.polynomial[0], x.polynomial[1]) for x in recognised]
-    A, a = dict(zip(pairs, known, strict=False)), dict(zip(triples, known[len(pairs) :], strict=True))
+    A, a = (
+        dict(zip(pairs, known, strict=False)),
+        dict(zip(triples, known[len(pairs) :], strict=True)),
+    )
     conic = [[A[min(i, j), max(i, j)] for j in range(3)] for i in range(3)]
     try:
         point = rational_point(conic)
@@ -84,14 +87,15 @@ def mestre_sextic(f: Form) -> tuple[RecognisedForm | None, str | None]:
 
 
 def _substituted(
-    a: dict[tuple[int, ...], Fraction], forms: list[list[Fraction]]
+    a: dict[tuple[int, int, int], Fraction], forms: list[list[Fraction]]
 ) -> list[Fraction]:
     polynomials = [
         flint.fmpq_poly([flint.fmpq(c.numerator, c.denominator) for c in form]) for form in forms
     ]
     total = flint.fmpq_poly([0])
     for i, j, k in product(range(3), repeat=3):
-        c = a[tuple(sorted((i, j, k)))]
+        first, second, third = sorted((i, j, k))
+        c = a[first, second, third]
         term = polynomials[i] * polynomials[j] * polynomials[k]
         total += flint.fmpq(c.numerator, c.denominator) * term
     coefficients = [Fraction(int(c.p), int(c.q)) for c in total.coeffs()]

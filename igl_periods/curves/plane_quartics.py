@@ -28,7 +28,7 @@ from __future__ import annotations
 import flint
 
 from igl_periods.errors import CurveError
-from igl_periods.theta_functions import SpinStructure, spin_structures, theta_series
+from igl_periods.riemann_theta import SpinStructure, spin_structures, theta_series
 
 from .ternary_forms import TernaryForm, added, linear, multiplied
 
@@ -79,7 +79,9 @@ def plane_quartic(Pi: flint.acb_mat) -> TernaryForm:
     """
     odd = set(spin_structures(3, "odd"))
     for order_two in spin_structures(3)[1:]:
-        pairs = sorted({tuple(sorted((s, _moved(s, order_two)))) for s in odd if _moved(s, order_two) in odd})
+        pairs = sorted(
+            {tuple(sorted((s, _moved(s, order_two)))) for s in odd if _moved(s, order_two) in odd}
+        )
         quartic = _from_pairs(Pi, pairs)
         if quartic is not None:
             return quartic
@@ -89,19 +91,13 @@ def plane_quartic(Pi: flint.acb_mat) -> TernaryForm:
     )
 
 
-def _from_pairs(
-    Pi: flint.acb_mat, pairs: list[tuple[SpinStructure, ...]]
-) -> TernaryForm | None:
-    products = [
-        multiplied(*(linear(bitangent(Pi, spin)) for spin in pair)) for pair in pairs[:5]
-    ]
+def _from_pairs(Pi: flint.acb_mat, pairs: list[tuple[SpinStructure, ...]]) -> TernaryForm | None:
+    products = [multiplied(*(linear(bitangent(Pi, spin)) for spin in pair)) for pair in pairs[:5]]
     fourth, fifth = (_in_terms(products[:3], Q) for Q in products[3:])
     if fourth is None or fifth is None:
         return None
     # (a, b, c) is perpendicular to (βγ, γα, αβ) of both.
-    (p, q, r), (s, t, u) = (
-        (y * z, z * x, x * y) for x, y, z in (fourth, fifth)
-    )
+    (p, q, r), (s, t, u) = ((y * z, z * x, x * y) for x, y, z in (fourth, fifth))
     a, b, c = q * u - r * t, r * s - p * u, p * t - q * s
     if any(x.contains(0) for x in (a, b, c)):
         return None

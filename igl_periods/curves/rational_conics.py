@@ -1,8 +1,8 @@
 r"""Rational points of plane conics, and parametrizations.
 
-A conic over Q is diagonal, a x² + b y² + c z² = 0, in suitable coordinates, with a, b, c square-free
-and without common divisors.  By Legendre it has a rational point iff not all signs agree and −bc,
-−ca, −ab are squares modulo a, b, c.  Then the (x, y, z) that satisfy the congruences
+A conic over Q is diagonal, a x² + b y² + c z² = 0, in suitable coordinates, with a, b, c
+square-free and without common divisors.  By Legendre it has a rational point iff not all signs
+agree and −bc, −ca, −ab are squares modulo a, b, c.  Then the (x, y, z) that satisfy the congruences
 
 .. math:: y \equiv t_a z \ (a), \qquad z \equiv t_b x \ (b), \qquad x \equiv t_c y \ (c),
           \qquad t_a^2 \equiv -c/b, \ldots
@@ -64,16 +64,14 @@ def rational_point(conic: Rows) -> Vector | None:
     if 0 in diagonal:
         raise ValueError("the conic is degenerate: it is a pair of lines")
     (a, b, c), scale = _legendre(diagonal)
-    if a > 0 and b > 0 and c > 0 or a < 0 and b < 0 and c < 0:
+    if (a > 0 and b > 0 and c > 0) or (a < 0 and b < 0 and c < 0):
         return None
     roots = [_root_modulo(-c * b, b, a), _root_modulo(-a * c, c, b), _root_modulo(-b * a, a, c)]
     if None in roots:
         return None
     point = _short_zero((a, b, c), [t for t in roots if t is not None])
     scaled = [s * x for s, x in zip(scale, point, strict=True)]
-    return tuple(
-        sum((change[i][k] * scaled[k] for k in range(3)), Fraction(0)) for i in range(3)
-    )
+    return tuple(sum((change[i][k] * scaled[k] for k in range(3)), Fraction(0)) for i in range(3))
 
 
 def parametrization(conic: Rows, point: Vector) -> list[list[Fraction]]:
@@ -82,9 +80,7 @@ def parametrization(conic: Rows, point: Vector) -> list[list[Fraction]]:
     Lines through a point P: for a direction D the second point is (D·AD) P − 2 (P·AD) D.
     """
     pivot = next(i for i in range(3) if point[i] != 0)
-    one, two = (
-        [Fraction(int(k == i)) for k in range(3)] for i in range(3) if i != pivot
-    )
+    one, two = ([Fraction(int(k == i)) for k in range(3)] for i in range(3) if i != pivot)
     q11, q12, q22 = (_bilinear(conic, *pair) for pair in ((one, one), (one, two), (two, two)))
     p1, p2 = _bilinear(conic, point, one), _bilinear(conic, point, two)
     # D = s·one + t·two, lists of coefficients of t², st, s².
@@ -130,7 +126,11 @@ def _independent(vectors: list[list[Fraction]], rank: int) -> list[list[Fraction
         if list(chosen) != sorted(set(chosen)):
             continue
         picked = [vectors[i] for i in chosen]
-        matrix = flint.fmpq_mat([[flint.fmpq(x.numerator, x.denominator) for x in v] for v in picked]) if picked else None
+        matrix = (
+            flint.fmpq_mat([[flint.fmpq(x.numerator, x.denominator) for x in v] for v in picked])
+            if picked
+            else None
+        )
         if matrix is None or matrix.rank() == rank:
             return picked
     raise ValueError("the conic is degenerate")
@@ -187,7 +187,7 @@ def _root_modulo(value: int, divisor: int, modulus: int) -> int | None:
             r = value % 2 * pow(divisor, -1, 2) % 2
         else:
             square = flint.nmod(value, p) / flint.nmod(divisor, p) ** 2
-            if square != 0 and pow(int(square), (p - 1) // 2, p) != 1:
+            if int(square) and pow(int(square), (p - 1) // 2, p) != 1:
                 return None
             r = _square_root(int(square), p)
         t, m = (t + m * ((r - t) * pow(m, -1, p) % p)) % (m * p), m * p

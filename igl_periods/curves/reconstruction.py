@@ -24,9 +24,9 @@ from igl_periods.errors import CurveError
 from igl_periods.moduli import ReducedBalls, reduced_balls, symplectic_automorphism_group
 from igl_periods.options import checked_integer
 from igl_periods.recognition import AlgebraicNumber, recognise_number
+from igl_periods.riemann_theta import spin_structures
 from igl_periods.run_log import stage
 from igl_periods.siegel import check_siegel_point
-from igl_periods.theta_functions import spin_structures
 
 from .algebraic_curve import LARGEST_DECIDED, AlgebraicCurve
 from .binary_forms import Form, Point, form_of_points, igusa_clebsch_of_sextic, shioda_invariants
@@ -181,13 +181,13 @@ def _hyperelliptic(points: list[Point], degree: int, known: dict[str, Any]) -> A
         if known["genus"] == 2 and (model is None or model.degree > 1):
             over_q, remark = mestre_sextic(form)
             model = model if over_q is None else over_q
+    remarks: tuple[str, ...] = (remark,) if remark else ()
     if model is None:
-        remarks = (_THREE_POINTS, remark) if remark else (_THREE_POINTS,)
+        remarks = (_THREE_POINTS, *remarks)
         places = {(k,): c for k, c in enumerate(form)}
         coefficients = {e: c for e, c in places.items() if e[0] not in (0, len(form) - 1)}
         recognised: dict[Any, AlgebraicNumber | None] = dict.fromkeys(coefficients)
     else:
-        remarks = (remark,) if remark else ()
         coefficients, recognised = _terms(model)
     return AlgebraicCurve(
         model="hyperelliptic",
@@ -275,10 +275,10 @@ def _unknown(known: dict[str, Any], vanishing: int | None) -> AlgebraicCurve:
 
 def _no_curve(vanishing: int, genus: int) -> str:
     return (
-        f"{vanishing} even theta constants vanish within their balls, and {number_vanishing(genus)}"
-        f"{' or 0' if genus == 3 else ''} do on a curve of genus {genus}: this is the period matrix "
-        "of a product of curves of lower genus, or known too badly to be told from one; ask for "
-        "more digits"
+        f"{vanishing} even theta constants vanish within their balls, and "
+        f"{number_vanishing(genus)}{' or 0' if genus == 3 else ''} do on a curve of genus {genus}: "
+        "this is the period matrix of a product of curves of lower genus, or known too badly to "
+        "be told from one; ask for more digits"
     )
 
 

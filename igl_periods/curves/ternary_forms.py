@@ -56,10 +56,10 @@ def multiplied(F: TernaryForm, G: TernaryForm) -> TernaryForm:
     return total
 
 
-def applied(Phi: TernaryForm, F: TernaryForm) -> TernaryForm:
+def applied(operator: TernaryForm, F: TernaryForm) -> TernaryForm:
     """D_Φ(F): Φ with ∂/∂x, ∂/∂y, ∂/∂z for its variables, applied to F."""
     total: TernaryForm = {}
-    for e, a in Phi.items():
+    for e, a in operator.items():
         for f, b in F.items():
             if all(x <= y for x, y in zip(e, f, strict=True)):
                 exponents = (f[0] - e[0], f[1] - e[1], f[2] - e[2])
@@ -72,7 +72,7 @@ def applied(Phi: TernaryForm, F: TernaryForm) -> TernaryForm:
 
 
 def linear(coefficients: Sequence[Any]) -> TernaryForm:
-    """a x + b y + c z."""
+    """A x + b y + c z."""
     a, b, c = coefficients
     return {(1, 0, 0): a, (0, 1, 0): b, (0, 0, 1): c}
 
@@ -190,9 +190,7 @@ def _conic(F: TernaryForm, zero: Any) -> Conic:
     """The symmetric matrix of a quadratic form."""
     units: list[Exponents] = [(1, 0, 0), (0, 1, 0), (0, 0, 1)]
     half = flint.fmpq(1, 2)
-    return [
-        [F.get(_sum(a, b), zero) * (1 if a == b else half) for b in units] for a in units
-    ]
+    return [[F.get(_sum(a, b), zero) * (1 if a == b else half) for b in units] for a in units]
 
 
 def _determinant(A: Conic) -> Any:

@@ -1,7 +1,7 @@
 r"""Invariants as points of a weighted projective space.
 
-Invariants J_1, …, J_n of degrees w_1, …, w_n of isomorphic curves differ by J_i ↦ μ^{w_i} J_i.  With
-d the greatest common divisor of the degrees of those that do not vanish, and integers e_i with
+Invariants J_1, …, J_n of degrees w_1, …, w_n of isomorphic curves differ by J_i ↦ μ^{w_i} J_i.
+With d the greatest common divisor of the degrees of those that do not vanish, and integers e_i with
 Σ e_i w_i = d, the monomial m = ∏ J_i^{e_i} has degree d, and
 
 .. math:: A_i = J_i / m^{w_i / d}

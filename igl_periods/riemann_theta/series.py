@@ -93,7 +93,7 @@ def theta_series(
 
 
 def _term(Pi: flint.acb_mat, shift: list[flint.acb], row: list[int]) -> flint.acb:
-    """exp πi(mᵀΠm + 2 mᵀ shift) for 2m = row."""
+    """Exp πi(mᵀΠm + 2 mᵀ shift) for 2m = row."""
     g = len(row)
     exponent = flint.acb(0)
     for i in range(g):

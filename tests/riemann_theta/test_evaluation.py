@@ -21,7 +21,7 @@ def test_constants_are_those_of_all_characteristics():
 def test_quasi_periods():
     """θ(z + e_1) = θ(z), θ(z + Πe_1) = exp(−πi(Π_11 + 2 z_1)) θ(z)."""
     value = theta(PI, Z)
-    assert abs(theta(PI, Z + [1, 0]) - value) < 1e-13
+    assert abs(theta(PI, Z + np.array([1, 0])) - value) < 1e-13
     factor = np.exp(-1j * np.pi * (PI[0, 0] + 2 * Z[0]))
     assert abs(theta(PI, Z + PI[:, 0]) - factor * value) < 1e-12 * abs(factor)
 

@@ -6,7 +6,7 @@ import pytest
 from support.points_in_balls import with_radius
 
 from igl_periods.errors import EnumerationLimitError, NotASiegelPointError
-from igl_periods.theta_functions import spin_structures, theta_series
+from igl_periods.riemann_theta import spin_structures, theta_series
 
 PI = [
     [0.2 + 1.1j, 0.3 - 0.2j, 0.1j],
@@ -48,8 +48,10 @@ def test_heat_equation_by_a_difference_of_the_matrix():
     flint.ctx.prec = 200
     Pi, z = point(2)
     h = flint.arb(2) ** -40
-    up, down = (flint.acb_mat([[Pi[0, 0] + s * h, Pi[0, 1]], [Pi[1, 0], Pi[1, 1]]]) for s in (1, -1))
-    slope = (theta_series(up, z, [1, 0], [0, 1])[()] - theta_series(down, z, [1, 0], [0, 1])[()])
+    up, down = (
+        flint.acb_mat([[Pi[0, 0] + s * h, Pi[0, 1]], [Pi[1, 0], Pi[1, 1]]]) for s in (1, -1)
+    )
+    slope = theta_series(up, z, [1, 0], [0, 1])[()] - theta_series(down, z, [1, 0], [0, 1])[()]
     heat = slope / (2 * h) * flint.acb(0, 4) * flint.arb.pi()
     second = theta_series(Pi, z, [1, 0], [0, 1], 2)[0, 0]
     assert float(abs(heat - second).upper()) < 1e-20

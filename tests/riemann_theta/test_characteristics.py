@@ -5,7 +5,7 @@ import pytest
 from support.modular_words import random_word
 
 from igl_periods import SpinStructure, siegel_transform, spin_structures, theta
-from igl_periods.theta_functions.characteristics import twice_characteristic
+from igl_periods.riemann_theta.characteristics import twice_characteristic
 
 PI = np.array([[0.2 + 1.1j, 0.3 - 0.2j], [0.3 - 0.2j, -0.1 + 1.4j]])
 
