@@ -35,6 +35,7 @@ Matrix = list[list[int]]
 _LARGEST_PRIME = 1000
 _FACTORED_BITS = 200
 _MOST_STEPS = 2000
+_SLACK = Fraction(10**9 + 1, 10**9)
 _TRANSLATIONS: list[Matrix] = [
     [[1, 1], [0, 1]],
     [[1, -1], [0, 1]],
@@ -82,9 +83,10 @@ def reduced_form(coefficients: list[Fraction]) -> list[int]:
 
 
 def _bad_primes(form: list[int]) -> list[int]:
-    """Primes that divide all invariants of a sextic."""
+    """Primes that divide all invariants of a sextic; of other forms small double ones."""
     if len(form) != 7:
-        return []
+        discriminant = int(flint.fmpz_poly(form).discriminant())
+        return [p for p in _small_primes() if discriminant % p**2 == 0] if discriminant else []
     invariants = igusa_clebsch_of_sextic([flint.fmpq(c) for c in form])
     number = gcd(*(int(x.p) for x in invariants))
     return _prime_divisors(number) if number else []
@@ -148,11 +150,11 @@ def _reduced(form: list[int]) -> list[int]:
     """By SL₂(Z), to where the covariant positive definite form is reduced."""
     for _ in range(_MOST_STEPS):
         a, b, c = _covariant(form)
-        shift = -round(b / (2 * a))
-        if shift:
-            form = _moved(form, [[1, shift], [0, 1]])
+        # What is on the boundary to within rounding stays there.
+        if abs(b) > a * _SLACK:
+            form = _moved(form, [[1, -round(b / (2 * a))], [0, 1]])
             continue
-        if a > c * Fraction(10**9 + 1, 10**9):
+        if a > c * _SLACK:
             form = _moved(form, [[0, 1], [-1, 0]])
             continue
         return form

@@ -86,8 +86,8 @@ def plane_quartic(Pi: flint.acb_mat) -> TernaryForm:
         if quartic is not None:
             return quartic
     raise CurveError(
-        "the bitangents of this matrix are in special position, or not known well enough: it is "
-        "near that of a hyperelliptic surface, or of a product"
+        "the bitangents of this matrix are in special position, or not known well enough: it may "
+        "be near that of a product"
     )
 
 

@@ -207,10 +207,19 @@ def _terms(model: RecognisedForm) -> tuple[dict[Any, flint.acb], dict[Any, Algeb
     if numbers[-1].polynomial != (0, 1) and numbers[0].polynomial == (0, 1):
         balls, numbers = balls[::-1], numbers[::-1]
     places = [k for k, x in enumerate(numbers) if x.polynomial != (0, 1)]
+    if len(places) == 2 and model.degree == 1 and (places[1] - places[0]) % 2:
+        # x ↦ −x makes the signs of two terms different.
+        low, high = (complex(numbers[k]).real for k in places)
+        if low * high > 0:
+            balls[places[0]], numbers[places[0]] = -balls[places[0]], _negative(numbers[places[0]])
     if model.degree == 1 and complex(numbers[places[-1]]).real < 0:
         balls = [-c for c in balls]
-        numbers = [_integer(x.polynomial[0], x) for x in numbers]
+        numbers = [_negative(x) for x in numbers]
     return {(k,): balls[k] for k in places}, {(k,): numbers[k] for k in places}
+
+
+def _negative(x: AlgebraicNumber) -> AlgebraicNumber:
+    return _integer(x.polynomial[0], x)
 
 
 def _invariants(form: Form) -> tuple[tuple[str, ...], tuple[int, ...], list[flint.acb]]:

@@ -35,8 +35,8 @@ from igl_periods.siegel import cholesky, short_vectors
 # The fraction of the exponent that pays for the number of terms.
 _SPARE = 0.125
 _MORE_BITS = 20
-# Y is rounded to double precision for the enumeration: relative slack, checked in balls.
-_SLACK = flint.arb(2) ** -20
+# Y is rounded to double precision for the enumeration: relative slacks, checked in balls.
+_SLACKS = (2.0**-20, 2.0**-10, 2.0**-5, 2.0**-2)
 
 Jet = dict[tuple[int, ...], flint.acb]
 
@@ -113,14 +113,14 @@ def _terms(Y: flint.arb_mat, centre: flint.arb_mat, radius: float) -> Ints:
     rounded = 0.5 * (rounded + rounded.T)
     point = np.array([float(x.mid()) for x in centre.entries()])
     nearby = flint.arb_mat([[flint.arb(x)] for x in point.tolist()])
-    # Q ≥ (1 − slack) Q~, and the centre is off by little: what is left out has Q > radius.
-    float_balls = flint.arb_mat(rounded.tolist())
-    slack = Y - float_balls * (1 - _SLACK)
     off = centre - nearby
-    if cholesky(slack) is None or not (off.transpose() * Y * off)[0, 0] < _SLACK:
-        raise NotASiegelPointError("Im Π is not known to be positive definite, or too badly scaled")
-    wide = (math.sqrt(radius) + 2.0**-9) ** 2 * (1.0 + 2.0**-18)
-    return short_vectors(rounded, wide, shift=point)[0]
+    distance = float((off.transpose() * Y * off)[0, 0].abs_upper())
+    # Q ≥ (1 − slack) Q~, and the centre is off by the distance: what is left out has Q > radius.
+    wide = (math.sqrt(radius) + 1.001 * math.sqrt(distance) + 1e-9) ** 2
+    for slack in _SLACKS:
+        if cholesky(Y - flint.arb_mat(rounded.tolist()) * (1 - flint.arb(slack))) is not None:
+            return short_vectors(rounded, wide / (1.0 - slack) * (1.0 + 1e-12), shift=point)[0]
+    raise NotASiegelPointError("Im Π is not known to be positive definite, or very badly scaled")
 
 
 def _tail(Y: flint.arb_mat, c: flint.arb_mat, radius: float, order: int) -> flint.arb:

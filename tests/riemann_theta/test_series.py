@@ -72,6 +72,13 @@ def test_balls_contain_the_values_of_all_matrices_in_them():
     assert all(around[k].contains(inside[k]) for k in inside)
 
 
+def test_wide_balls_take_more_terms():
+    Pi, z = point(2)
+    wide = theta_series(with_radius(np.array(PI)[:2, :2], 2), z, [0, 0], [0, 0])[()]
+    assert wide.contains(theta_series(Pi, z, [0, 0], [0, 0])[()])
+    assert float(wide.rad()) < 1.0
+
+
 def test_refused():
     z = flint.acb_mat(2, 1)
     flat = flint.acb_mat([[1j, 2j], [2j, 1j]])
