@@ -31,7 +31,7 @@ Takase, "A generalization of Rosenhain's normal form for hyperelliptic curves wi
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import combinations
+from itertools import combinations, permutations
 from math import comb
 from typing import TypeAlias
 
@@ -71,12 +71,31 @@ def branch_points(constants: flint.acb_mat) -> list[Point]:
     values = {
         (*s.a, *s.b): z**2 for s, z in zip(spin_structures(g), constants.entries(), strict=True)
     }
-    points = [
-        (flint.acb(1), flint.acb(1)),
-        (flint.acb(0), flint.acb(1)),
-        (flint.acb(1), flint.acb(0)),
-    ]
-    return points + [(_cross_ratio(labels, values, n), flint.acb(1)) for n in range(3, 2 * g + 2)]
+    first = _normalised(labels, values)
+    return _normalised(labels.in_order(_best_order(first)), values)
+
+
+def _normalised(labels: _Labels, values: dict[_Vector, flint.acb]) -> list[Point]:
+    one, zero = flint.acb(1), flint.acb(0)
+    others = [_cross_ratio(labels, values, n) for n in range(3, len(labels.points))]
+    return [(one, one), (zero, one), (one, zero), *((x, one) for x in others)]
+
+
+def _best_order(points: list[Point]) -> list[int]:
+    """An order of the points that leaves them far apart, with its first three at 1, 0, ∞."""
+    x = np.array([complex(z) for z, _ in points[3:]])
+    vectors = np.array([[1, 1], [0, 1], [1, 0], *([z, 1] for z in x)])
+    vectors /= np.linalg.norm(vectors, axis=1, keepdims=True)
+    det = vectors[:, None, 0] * vectors[:, 1] - vectors[:, None, 1] * vectors[:, 0]
+
+    def spread(i: int, k: int, j: int) -> float:
+        rest = [n for n in range(len(points)) if n not in (i, k, j)]
+        moved = np.abs(det[rest, k] * det[i, j] / (det[rest, j] * det[i, k]))
+        apart = np.abs(det[rest, i] * det[k, j] / (det[rest, j] * det[i, k]))
+        return float(max(moved.max(), 1 / moved.min(), 1 / apart.min()))
+
+    first = min(permutations(range(len(points)), 3), key=lambda triple: spread(*triple))
+    return [*first, *(n for n in range(len(points)) if n not in first)]
 
 
 def vanishing_even(constants: flint.acb_mat) -> list[SpinStructure]:
@@ -120,6 +139,10 @@ class _Labels:
         pairs = spin_structures(g, "odd") if g == 3 else vanishing
         differences = [_plus((*s.a, *s.b), centre) for s in pairs]
         return cls([*_star(differences, g), (0,) * (2 * g)], centre)
+
+    def in_order(self, order: list[int]) -> _Labels:
+        """The same with the branch points in another order."""
+        return _Labels([self.points[i] for i in order], self.origin)
 
     def characteristic(self, members: Sequence[int]) -> _Vector:
         """That of a set of g + 1 branch points."""

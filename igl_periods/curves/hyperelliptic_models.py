@@ -46,6 +46,8 @@ from .weighted_points import absolute_invariants, vanishes
 _REPRESENTATIVES = 3
 # Two coefficients ±1.
 _SIMPLEST = (1, 4, 2)
+# Balls around 0 are taken for 0 up to this size, relative to the largest coefficient.
+_VANISHING = 1e-5
 ZERO = AlgebraicNumber((0, 1), 0j)
 
 
@@ -100,6 +102,8 @@ def model_of_branch_points(points: list[Point], degree: int) -> RecognisedForm |
 
 def recognised_form(form: Form, degree: int) -> RecognisedForm | None:
     """The form with its coefficients recognised, integers if all are rational; None otherwise."""
+    if not _well_known(form):
+        return None
     numbers: list[AlgebraicNumber] = []
     for c in form:
         number = ZERO if vanishes(c) else recognise_number(c, degree=degree)
@@ -110,6 +114,16 @@ def recognised_form(form: Form, degree: int) -> RecognisedForm | None:
         fractions = [Fraction(-x.polynomial[0], x.polynomial[1]) for x in numbers]
         return rational_form(fractions, weakest_evidence(numbers))
     return RecognisedForm(tuple(form), tuple(numbers))
+
+
+def _well_known(form: Form) -> bool:
+    """Whether what counts as 0 is small compared with the other coefficients."""
+    sizes = [float(c.abs_lower()) for c in form]
+    largest = max(sizes)
+    return largest > 0.0 and all(
+        size > 0.0 or float(c.abs_upper()) < _VANISHING * largest
+        for c, size in zip(form, sizes, strict=True)
+    )
 
 
 def rational_form(fractions: list[Fraction], evidence: Evidence | None) -> RecognisedForm:

@@ -33,6 +33,7 @@ from igl_periods.riemann_theta import SpinStructure, spin_structures, theta_seri
 from .ternary_forms import TernaryForm, added, linear, multiplied
 
 Line = list[flint.acb]
+_COMPLEXES = 3
 _MONOMIALS = [(2, 0, 0), (0, 2, 0), (0, 0, 2), (1, 1, 0), (0, 1, 1), (1, 0, 1)]
 
 
@@ -78,7 +79,8 @@ def plane_quartic(Pi: flint.acb_mat) -> TernaryForm:
         smooth quartic are.
     """
     odd = set(spin_structures(3, "odd"))
-    for order_two in spin_structures(3)[1:]:
+    # Every ε does in exact arithmetic; in balls one may be better than another.
+    for order_two in spin_structures(3)[1 : 1 + _COMPLEXES]:
         pairs = sorted(
             {tuple(sorted((s, _moved(s, order_two)))) for s in odd if _moved(s, order_two) in odd}
         )
@@ -123,7 +125,10 @@ def _in_terms(basis: list[TernaryForm], Q: TernaryForm) -> list[flint.acb] | Non
         return None
     matrix = flint.acb_mat([columns[i] for i in rows])
     right = flint.acb_mat([[Q[_MONOMIALS[i]]] for i in rows])
-    return list(matrix.solve(right).entries())
+    try:
+        return list(matrix.solve(right).entries())
+    except ZeroDivisionError:
+        return None
 
 
 def _moved(spin: SpinStructure, by: SpinStructure) -> SpinStructure:

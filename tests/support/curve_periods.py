@@ -1,7 +1,9 @@
-"""Period matrices in balls that tests make themselves: closed forms, and equations by quadrature."""
+"""Period matrices in balls that tests make themselves: closed forms, equations by quadrature."""
 
 import flint
 import numpy as np
+
+from igl_periods.siegel import midpoint
 
 
 def l_shape_matrix(x):
@@ -28,14 +30,14 @@ def real_branch_points_matrix(points):
     over_gap = [[_gap_integral(e, k, j) for k in range(2 * g)] for j in range(g)]
     A = flint.acb_mat([[2 * over_gap[j][2 * i] for i in range(g)] for j in range(g)])
     tails = [
-        [sum((2 * over_gap[j][k] for k in range(2 * i + 1, 2 * g, 2)), flint.acb(0)) for i in range(g)]
-        for j in range(g)
+        [sum((2 * gaps[k] for k in range(2 * i + 1, 2 * g, 2)), flint.acb(0)) for i in range(g)]
+        for gaps in over_gap
     ]
     Pi = A.solve(flint.acb_mat(tails))
     if float(Pi[0, 0].imag.mid()) < 0:
         Pi = -1 * Pi
     assert all((Pi[i, j] - Pi[j, i]).contains(0) for i in range(g) for j in range(g))
-    assert np.linalg.eigvalsh([[float(Pi[i, j].imag.mid()) for j in range(g)] for i in range(g)])[0] > 0
+    assert np.linalg.eigvalsh(midpoint(Pi).imag)[0] > 0
     return (Pi + Pi.transpose()) / 2
 
 
