@@ -118,10 +118,13 @@ from .forms import (
     symplectic_mean_forms,
 )
 from .differentials import (
+    FormZeros,
     abel_jacobi,
+    divisor_class,
     evenness,
     form_of_periods,
     form_of_real_periods,
+    form_zeros,
     most_even_form,
     parametrize,
 )
@@ -252,6 +255,9 @@ __all__ = [
     "holomorphic_forms",
     "symplectic_mean_forms",
     "abel_jacobi",
+    "divisor_class",
+    "form_zeros",
+    "FormZeros",
     "form_of_periods",
     "form_of_real_periods",
     "most_even_form",

@@ -74,9 +74,7 @@ def _answer(options: argparse.Namespace) -> Answer:
     found = [_of_surface(K, options) for K in surfaces]
     if options.json:
         pairs = zip(surfaces, found, strict=True)
-        documents = [
-            {"curve": curve_to_json(c), "lengths": lengths_in_words(K)} for K, c in pairs
-        ]
+        documents = [{"curve": curve_to_json(c), "lengths": lengths_in_words(K)} for K, c in pairs]
         body: dict[str, Any] = (
             {"components": documents} if options.component == ALL else documents[0]
         )

@@ -8,7 +8,11 @@ from support.quadrature_periods import period_matrix as curve_period_matrix
 
 from igl_periods.moduli.equivalence import moduli_distance, symplectic_isomorphisms
 from igl_periods.surfaces import lawson_period_matrix
-from igl_periods.surfaces.named_surfaces import binomial_period_matrix, catalogue, polygon_period_matrix
+from igl_periods.surfaces.named_surfaces import (
+    binomial_period_matrix,
+    catalogue,
+    polygon_period_matrix,
+)
 
 ROOT2, ROOT7 = 2**0.5, 7**0.5
 
