@@ -53,8 +53,8 @@ def add_identify(commands: Commands) -> None:
         "--digits",
         type=int,
         metavar="N",
-        help="enclose the matrix in balls with so many proved digits, compare in balls, and name what "
-        "the invariants are recognised as; "
+        help="enclose the matrix in balls with so many proved digits, compare in balls, and name "
+        "what the invariants are recognised as; "
         "--degree, --tolerance and their like play no part",
     )
     recognise.set_defaults(run=_identify)

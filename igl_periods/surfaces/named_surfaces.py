@@ -313,9 +313,11 @@ _SINGLE = (
             "regular map {3,8} of genus 3",
             "quaternion origami",
             "surface of the period matrix (1 + i)/2 [[2, 1, 1], [1, 2, 1], [1, 1, 2]]",
+            "eierlegende Wollmilchsau",
         ),
         3,
-        "Gaussian multiples of K(1/sqrt 2)/2; recognised in the periods of abelfunctions",
+        "Gaussian multiples of K(1/sqrt 2)/2; recognised in the periods of abelfunctions; "
+        "Herrlich, Schmithüsen (2008) for the origami",
         partial(_regular_map, "fermat"),
         exact.fermat,
     ),

@@ -76,7 +76,7 @@ def test_a_curve_with_more_symmetries():
     """y² = x(x² − 1)(x² − 4) in coordinates of its rotations."""
     flint.ctx.dps = 40
     curve = ip.curve(real_branch_points_matrix((-2, -1, 0, 1, 2)))
-    assert curve.equation == "y^2 = 2*x^5 - 5*x^3 + 2*x"
+    assert curve.equation in ("y^2 = 2*x^5 - 5*x^3 + 2*x", "y^2 = 2*x^5 + 5*x^3 + 2*x")
     assert curve.same_invariants(ip.curve_of_form([0, 4, 0, -5, 0, 1, 0]))
 
 
