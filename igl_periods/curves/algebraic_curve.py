@@ -119,7 +119,9 @@ class AlgebraicCurve:
 
     @cached_property
     def field_of_moduli(self) -> NumberField | None:
-        """The field of the absolute invariants, if all of them are recognised."""
+        """The field of the absolute invariants, if they or an equation over Q are recognised."""
+        if self.field is not None and self.field.degree == 1:
+            return self.field
         numbers = list(self.recognised_invariants.values())
         known = [x for x in numbers if x is not None]
         return generated_field(known) if numbers and len(known) == len(numbers) else None
@@ -131,9 +133,17 @@ class AlgebraicCurve:
         return min(found, key=lambda evidence: evidence.left_over, default=None)
 
     def same_invariants(self, other: AlgebraicCurve) -> bool:
-        """Whether the invariants of two curves agree within their balls; False is proved."""
+        """Whether the invariants of two curves agree within their balls; False is proved.
+
+        Raises
+        ------
+        ValueError
+            If both have the same genus and model, and no invariants are computed for these.
+        """
         if (self.genus, list(self.invariants)) != (other.genus, list(other.invariants)):
             return False
+        if not self.invariants and self.model == other.model:
+            raise ValueError(f"no invariants are computed of curves ({self.model}) of this genus")
         if self.weights == (0,):
             return bool(self.invariants["j"].overlaps(other.invariants["j"]))
         one, two = list(self.invariants.values()), list(other.invariants.values())

@@ -35,6 +35,7 @@ Matrix = list[list[int]]
 _LARGEST_PRIME = 1000
 _FACTORED_BITS = 200
 _MOST_STEPS = 2000
+_WORD = 1 << 62
 _SLACK = Fraction(10**9 + 1, 10**9)
 _TRANSLATIONS: list[Matrix] = [
     [[1, 1], [0, 1]],
@@ -135,8 +136,9 @@ def _minimised(form: list[int], p: int) -> list[int]:
 def _multiple_roots(form: list[int], p: int) -> Iterator[Matrix]:
     """Where modulo p a root has more than half of the degree: ∞, or a finite one."""
     yield [[1, 0], [0, p]]
-    ring: Any = flint.fmpz_mod_poly_ctx(p)
-    polynomial = ring(form)
+    polynomial = _modulo(form, p)
+    if polynomial is None:
+        return
     if polynomial.degree() < 1:
         yield [[p, 0], [0, 1]]
         return
@@ -144,6 +146,14 @@ def _multiple_roots(form: list[int], p: int) -> Iterator[Matrix]:
         if factor.degree() == 1 and 2 * multiplicity >= len(form) - 1:
             r = int(-factor[0] / factor[1]) % p
             yield [[p, r if 2 * r < p else r - p], [0, 1]]
+
+
+def _modulo(form: list[int], p: int) -> Any:
+    """The polynomial modulo p; None for large p where python-flint (before 0.7) has none."""
+    if p < _WORD:
+        return flint.nmod_poly(form, p)
+    rings: Any = getattr(flint, "fmpz_mod_poly_ctx", None)
+    return None if rings is None else rings(p)(form)
 
 
 def _reduced(form: list[int]) -> list[int]:

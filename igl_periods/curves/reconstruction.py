@@ -15,7 +15,7 @@ Everything is computed in balls from Π reduced; recognition comes last.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import flint
@@ -112,20 +112,30 @@ def curve(Pi: Any, *, degree: int = DEGREE) -> AlgebraicCurve:
         return _unknown(known, vanishing)
 
 
-def curve_of_form(f: Sequence[Any], *, digits: int = 50) -> AlgebraicCurve:
-    """The curve y² = f(x) with known coefficients, for comparison.
+def curve_of_form(
+    f: Sequence[Any] | Mapping[tuple[int, int, int], Any], *, digits: int = 50
+) -> AlgebraicCurve:
+    """The curve y² = f(x), or the plane quartic F = 0, with known coefficients, for comparison.
 
     Parameters
     ----------
-    f : sequence of int, fmpq or acb
-        f_0, …, f_{2g+2}; the last is 0 for an odd degree.
+    f : sequence of int, fmpq or acb, or mapping
+        f_0, …, f_{2g+2}, the last 0 for an odd degree; or from exponents (i, j, k) of x^i y^j z^k,
+        i + j + k = 4, to coefficients.
     digits : int
 
     Raises
     ------
     ValueError
-        If there are not 7 or 9 coefficients.
+        If there are not 7 or 9 coefficients, or F is no quartic.
+
+    Examples
+    --------
+    >>> curve_of_form({(4, 0, 0): 1, (0, 4, 0): 1, (0, 0, 4): 1}).equation
+    'x^4 + y^4 + z^4 = 0'
     """
+    if isinstance(f, Mapping):
+        return _quartic_of_form(f, digits)
     if len(f) not in (7, 9):
         raise ValueError(f"a sextic or an octic has 7 or 9 coefficients, not {len(f)}")
     with flint.ctx.workdps(digits):
@@ -140,6 +150,22 @@ def curve_of_form(f: Sequence[Any], *, digits: int = 50) -> AlgebraicCurve:
         recognised=recognised,
         invariants=dict(zip(names, invariants, strict=True)),
         weights=weights,
+        digits=digits,
+    )
+
+
+def _quartic_of_form(F: Mapping[tuple[int, int, int], Any], digits: int) -> AlgebraicCurve:
+    with flint.ctx.workdps(digits):
+        form = {e: flint.acb(c) for e, c in F.items()}
+        invariants = dixmier_ohno_invariants(form)
+        recognised = {e: recognise_number(c) for e, c in form.items()}
+    return AlgebraicCurve(
+        genus=3,
+        model="plane quartic",
+        coefficients=form,
+        recognised=recognised,
+        invariants=dict(zip(_OHNO, invariants, strict=True)),
+        weights=DIXMIER_OHNO_WEIGHTS,
         digits=digits,
     )
 

@@ -2,9 +2,10 @@ r"""Zeros of a holomorphic differential, and the stratum it lies in.
 
 The orders of the 2g − 2 zeros of ζ, decreasing, name its *stratum* H(k_1, …, k_n), Σ k_i = 2g − 2.
 On a triangulation the index of z = ∫ζ at a vertex
-(:mod:`igl_periods.differentials.parametrization`) is the order of the zero there.  A zero inside a face, or between vertices, shows as a face that is
-turned over or as a vertex of negative index beside it; only the sum of all is 2g − 2 then, and the
-stratum is not told.  On a translation surface dz has its zeros at the cone points, exactly.
+(:mod:`igl_periods.differentials.parametrization`) is the order of the zero there.  A zero inside a
+face, or between vertices, shows as a face that is turned over or as a vertex of negative index
+beside it; only the sum of all is 2g − 2 then, and the stratum is not told.  On a translation
+surface dz has its zeros at the cone points, exactly.
 
 References
 ----------

@@ -36,6 +36,22 @@ def test_invariants_decide_which_curve_it_is(bolza):
     assert not bolza.same_invariants(ip.curve_of_form([-1, 0, 0, 0, 0, 0, 0, 1, 0]))
 
 
+def test_quartics_are_compared_too():
+    flint.ctx.dps = 40
+    klein = ip.curve(exact_matrices.klein())
+    assert klein.same_invariants(ip.curve_of_form({(1, 3, 0): 2, (0, 1, 3): 3, (3, 0, 1): 5}))
+    assert not klein.same_invariants(ip.curve_of_form({(4, 0, 0): 1, (0, 4, 0): 1, (0, 0, 4): 1}))
+    with pytest.raises(ValueError, match="terms of degree 4"):
+        ip.curve_of_form({(3, 0, 0): 1})
+
+
+def test_without_invariants_nothing_is_compared():
+    flint.ctx.dps = 40
+    bring = ip.curve(exact_matrices.bring())
+    with pytest.raises(ValueError, match="no invariants are computed of curves"):
+        bring.same_invariants(bring)
+
+
 def test_recognised_absolute_invariants_of_the_omega_surface():
     """Those of y² = 3x⁵ + 7x³ + 4x, exactly."""
     flint.ctx.dps = 60
