@@ -84,7 +84,10 @@ class AlgebraicCurve:
 
     @property
     def is_hyperelliptic(self) -> bool | None:
-        """Whether the curve is a double cover of the line; None if that is not found out."""
+        """Whether the curve is a double cover of the line; None if that is not found out.
+
+        False is proved; True means that the theta constants that have to vanish may.
+        """
         return (
             None
             if self.model == "unknown" and self.genus > LARGEST_DECIDED

@@ -60,12 +60,26 @@ def absolute_invariants(invariants: Sequence[Any], weights: Sequence[int]) -> li
 
 
 def same_point(one: Sequence[Any], two: Sequence[Any], weights: Sequence[int]) -> bool:
-    """Whether two points agree as far as balls tell; False is proved."""
-    vanishing = [[vanishes(x) for x in point] for point in (one, two)]
-    if vanishing[0] != vanishing[1]:
-        return False
-    pairs = zip(absolute_invariants(one, weights), absolute_invariants(two, weights), strict=True)
-    return all(vanishes(flint.acb(a) - flint.acb(b)) for a, b in pairs)
+    """Whether two points agree as far as balls tell; False is proved.
+
+    The scale comes from the invariants that certainly vanish for neither, so that a ball around 0
+    is compared with what it may be.
+    """
+    pairs = list(zip(one, two, weights, strict=True))
+    sure = [(a, b, w) for a, b, w in pairs if not (vanishes(a) or vanishes(b))]
+    if not sure:
+        return True
+    exponents = _bezout([w for _, _, w in sure])
+    d = gcd(*(w for _, _, w in sure))
+    # μ^d, if two = μ · one.
+    scale = flint.acb(1)
+    for e, (a, b, _) in zip(exponents, sure, strict=True):
+        scale *= (flint.acb(b) / flint.acb(a)) ** e
+    for a, b, w in pairs:
+        power = d // gcd(d, w)
+        if not vanishes(flint.acb(b) ** power - flint.acb(a) ** power * scale ** (w * power // d)):
+            return False
+    return True
 
 
 def vanishes(value: Any) -> bool:

@@ -46,6 +46,13 @@ def test_binomial_curves(n):
     assert ip.curve(_binomial_balls(n)).equation == f"y^2 = x^{n} - 1"
 
 
+def test_from_a_polygon_to_its_equation():
+    curve = ip.curve(ip.enclose(ip.surfaces.regular_polygon(8), digits=20))
+    assert curve.equation == "y^2 = x^5 - x"
+    assert curve.proved
+    assert curve.digits >= 20
+
+
 def test_another_marking_is_the_same_curve():
     flint.ctx.dps = 60
     gamma = random_word(2, 8, np.random.default_rng(3))

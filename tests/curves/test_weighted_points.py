@@ -27,6 +27,14 @@ def test_only_degrees_that_occur_count():
     assert not same_point(one, numbers(8, 0, 64, 1025), WEIGHTS)
 
 
+def test_wide_balls_prove_nothing():
+    wide = [flint.acb(flint.arb(x, 10)) for x in (2, 0, 3, 5)]
+    assert same_point(wide, numbers(2, 1, 3, 5), WEIGHTS)
+    half = [flint.acb(2), flint.acb(flint.arb(0, 0.5)), flint.acb(3), flint.acb(5)]
+    assert same_point(half, numbers(2, flint.fmpq(1, 4), 3, 5), WEIGHTS)
+    assert not same_point(half, numbers(2, 1, 3, 5), WEIGHTS)
+
+
 def test_balls_that_contain_zero_are_zero():
     tiny = flint.acb(flint.arb(0, 1e-30))
     point = [flint.acb(2), tiny, flint.acb(3), flint.acb(5)]
