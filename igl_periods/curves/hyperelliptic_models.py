@@ -118,6 +118,8 @@ def recognised_form(form: Form, degree: int) -> RecognisedForm | None:
 
 def _well_known(form: Form) -> bool:
     """Whether what counts as 0 is small compared with the other coefficients."""
+    if not all(c.is_finite() for c in form):
+        return False
     sizes = [float(c.abs_lower()) for c in form]
     largest = max(sizes)
     return largest > 0.0 and all(

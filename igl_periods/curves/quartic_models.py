@@ -156,7 +156,10 @@ def _frames(
         kind = tuple(np.round(np.sort(sizes / sizes.max())[::-1][:terms], 6).tolist())
         ranked.setdefault((terms, kind), gamma)
     for key in sorted(ranked)[:_MOST_FRAMES]:
-        _, vectors = _ball_action(ranked[key], Pi).eig(right=True, multiple=False)
+        try:
+            _, vectors = _ball_action(ranked[key], Pi).eig(right=True, multiple=False)
+        except ValueError:  # balls too wide to isolate the eigenvalues
+            continue
         yield vectors
 
 
@@ -210,7 +213,7 @@ def _branches(
 def _recognised(G: TernaryForm, degree: int) -> dict[Exponents, AlgebraicNumber] | None:
     numbers: dict[Exponents, AlgebraicNumber] = {}
     for e, c in sorted(G.items(), reverse=True):
-        number = recognise_number(c, degree=degree)
+        number = recognise_number(c, degree=degree) if c.is_finite() else None
         if number is None:
             return None
         numbers[e] = number

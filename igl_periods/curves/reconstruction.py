@@ -19,6 +19,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import flint
+import numpy as np
 
 from igl_periods.errors import CurveError
 from igl_periods.moduli import ReducedBalls, reduced_balls, symplectic_automorphism_group
@@ -26,7 +27,7 @@ from igl_periods.options import checked_integer
 from igl_periods.recognition import AlgebraicNumber, recognise_number
 from igl_periods.riemann_theta import spin_structures
 from igl_periods.run_log import stage
-from igl_periods.siegel import check_siegel_point
+from igl_periods.siegel import PRECISION, ball_matrix, balls_of, check_siegel_point
 
 from .algebraic_curve import LARGEST_DECIDED, AlgebraicCurve
 from .binary_forms import Form, Point, form_of_points, igusa_clebsch_of_sextic, shioda_invariants
@@ -51,39 +52,40 @@ _THREE_POINTS = "coordinates in which three branch points are 1, 0, ∞"
 def curve(Pi: Any, *, degree: int = DEGREE) -> AlgebraicCurve:
     """The algebraic curve of a period matrix.
 
-    Parameters
-    ----------
-    Pi : (g, g) array-like, PeriodMatrix, PeriodEnclosure or acb_mat
-        Best in balls of 50 digits: ``ip.enclose(surface, digits=50)``.  A ``PeriodMatrix`` is known
-        within its certificate, a plain array is taken to be right to 1e-8: enough for invariants
-        of a few digits, seldom for coefficients.
-    degree : int
-        The largest degree of an algebraic number that is tried for coefficients.
+        Parameters
+        ----------
+        Pi : (g, g) array-like, PeriodMatrix, PeriodEnclosure or acb_mat
+            Best in balls of 50 digits: ``ip.enclose(surface, digits=50)``.  A ``PeriodMatrix`` is known
+            within its certificate, a plain array is taken to be right to 1e-8: enough for invariants
+            of a few digits, seldom for coefficients.
+        degree : int
+            The largest degree of an algebraic number that is tried for coefficients.
 
-    Returns
-    -------
-    AlgebraicCurve
-        Its invariants are balls that contain those of the curve; its coefficients are recognised,
-        which is not a proof.
+        Returns
+        -------
+        AlgebraicCurve
+            Its invariants are balls that contain those of the curve; its coefficients are recognised,
+            which is not a proof.
 
-    Raises
-    ------
-    CurveError
-        For a sphere; for a period matrix of a product of lower genera, which is no curve's, or one
-        so near that its balls cannot tell.
-    NotASiegelPointError
-        If Π is no point of the Siegel upper half-space.
-    ValueError
-        If the degree is no positive integer.
+        Raises
+        ------
+        CurveError
+            For a sphere; for a ``PeriodMatrix`` without a certificate; for a period matrix of a product of lower genera, which is no curve's, or one
+            so near that its balls cannot tell.
+        NotASiegelPointError
+            If Π is no point of the Siegel upper half-space.
+        ValueError
+            If the degree is no positive integer.
 
-    Examples
-    --------
-    >>> import flint
-    >>> with flint.ctx.workdps(40):
-    ...     root = flint.arb(3).sqrt()
-    ...     Pi = flint.acb_mat([[2, -1], [-1, 2]]) * (flint.acb(0, 1) / root)
-    ...     curve(Pi).equation
-    'y^2 = x^6 - 1'
+        Examples
+        --------
+        >>> import flint
+    import numpy as np
+        >>> with flint.ctx.workdps(40):
+        ...     root = flint.arb(3).sqrt()
+        ...     Pi = flint.acb_mat([[2, -1], [-1, 2]]) * (flint.acb(0, 1) / root)
+        ...     curve(Pi).equation
+        'y^2 = x^6 - 1'
     """
     genus = len(check_siegel_point(Pi))
     degree = checked_integer("degree", degree)
@@ -91,7 +93,7 @@ def curve(Pi: Any, *, degree: int = DEGREE) -> AlgebraicCurve:
         raise ValueError(f"degree = {degree}: algebraic numbers have a degree of 1 and more")
     if genus == 0:
         raise CurveError("the surface is a sphere (genus 0): its curve is the projective line")
-    reduced = reduced_balls(Pi)
+    reduced = _reduced(Pi)
     known = {"genus": genus, "digits": _digits_known(reduced), "proved": reduced.proved}
     with flint.ctx.workprec(reduced.bits):
         if genus == 1:
@@ -110,6 +112,19 @@ def curve(Pi: Any, *, degree: int = DEGREE) -> AlgebraicCurve:
         if genus <= 3:
             raise CurveError(_no_curve(vanishing, genus))
         return _unknown(known, vanishing)
+
+
+def _reduced(Pi: Any) -> ReducedBalls:
+    """Π in balls, reduced: of floating point within the certificate, if there is one."""
+    if balls_of(Pi) is not None or not hasattr(Pi, "entry_bounds"):
+        return reduced_balls(Pi)
+    reduced = Pi.reduced()
+    if reduced.entry_bounds is None:
+        raise CurveError("a period matrix without a certificate: take its array, pm.matrix")
+    balls = ball_matrix(reduced.matrix, reduced.entry_bounds)
+    # The marking does not matter to the curve.
+    marking = np.eye(2 * len(reduced.matrix), dtype=np.int64)
+    return ReducedBalls(balls, marking, PRECISION, bool(Pi.rigorous))
 
 
 def curve_of_form(
@@ -173,6 +188,7 @@ def _quartic_of_form(F: Mapping[tuple[int, int, int], Any], digits: int) -> Alge
 def _elliptic(j: flint.acb, degree: int, known: dict[str, Any]) -> AlgebraicCurve:
     number = recognise_number(j, degree=degree) if j.is_finite() else None
     fraction = rational(number)
+    remarks: tuple[str, ...] = ()
     coefficients: dict[tuple[int, ...], flint.acb] = {(3,): flint.acb(1)}
     recognised: dict[tuple[int, ...], AlgebraicNumber | None] = {(3,): _integer(1, None)}
     if fraction is not None and number is not None:
@@ -180,16 +196,20 @@ def _elliptic(j: flint.acb, degree: int, known: dict[str, Any]) -> AlgebraicCurv
             if c:
                 coefficients[(k,)] = flint.acb(c)
                 recognised[(k,)] = _integer(c, number)
-    else:
+    elif not (j - 1728).contains(0):
         for k, z in zip((1, 0), weierstrass_coefficients(j), strict=True):
             coefficients[(k,)] = z
             recognised[(k,)] = recognise_number(z, degree=degree) if number is not None else None
+    else:
+        coefficients, recognised = {}, {}
+        remarks = ("j is not known to be another number than 1728, that of y^2 = x^3 - x",)
     return AlgebraicCurve(
         model="elliptic",
         coefficients=coefficients,
         recognised=recognised,
         invariants={"j": j},
         weights=(0,),
+        remarks=remarks,
         **known,
     )
 

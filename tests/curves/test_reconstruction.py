@@ -119,6 +119,23 @@ def test_floats_give_a_few_digits():
     assert curve.same_invariants(ip.curve_of_form([-1, 0, 0, 0, 0, 0, 1]))
 
 
+def test_a_certificate_is_what_is_known():
+    """Ω₂ by high degree: a few digits, and by linear functions too few to tell it from a product."""
+    K = ip.surfaces.square_tiled_surface("omega_2", n=2)
+    known = ip.curve(ip.period_matrix(K, degree=8))
+    assert 6 <= known.digits <= 9
+    assert known.same_invariants(ip.curve_of_form([0, -1, 0, 0, 0, 1, 0]))
+    assert not known.same_invariants(ip.curve_of_form([-1, 0, 0, 0, 0, 1, 0]))
+    with pytest.raises(ip.CurveError, match="known too badly"):
+        ip.curve(ip.period_matrix(ip.surfaces.square_tiled_surface("omega_1")))
+
+
+def test_a_torus_that_may_be_the_square_one():
+    curve = ip.curve(np.array([[1j]]))
+    assert curve.coefficients == {}
+    assert "1728" in curve.remarks[0]
+
+
 def test_beyond():
     flint.ctx.dps = 40
     bring = ip.curve(exact_matrices.bring())
