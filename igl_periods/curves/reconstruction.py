@@ -52,40 +52,39 @@ _THREE_POINTS = "coordinates in which three branch points are 1, 0, ∞"
 def curve(Pi: Any, *, degree: int = DEGREE) -> AlgebraicCurve:
     """The algebraic curve of a period matrix.
 
-        Parameters
-        ----------
-        Pi : (g, g) array-like, PeriodMatrix, PeriodEnclosure or acb_mat
-            Best in balls of 50 digits: ``ip.enclose(surface, digits=50)``.  A ``PeriodMatrix`` is known
-            within its certificate, a plain array is taken to be right to 1e-8: enough for invariants
-            of a few digits, seldom for coefficients.
-        degree : int
-            The largest degree of an algebraic number that is tried for coefficients.
+    Parameters
+    ----------
+    Pi : (g, g) array-like, PeriodMatrix, PeriodEnclosure or acb_mat
+        Best in balls of 50 digits: ``ip.enclose(surface, digits=50)``.  A ``PeriodMatrix`` is known
+        within its certificate, a plain array is taken to be right to 1e-8: enough for invariants
+        of a few digits, seldom for coefficients.
+    degree : int
+        The largest degree of an algebraic number that is tried for coefficients.
 
-        Returns
-        -------
-        AlgebraicCurve
-            Its invariants are balls that contain those of the curve; its coefficients are recognised,
-            which is not a proof.
+    Returns
+    -------
+    AlgebraicCurve
+        Its invariants are balls that contain those of the curve; its coefficients are recognised,
+        which is not a proof.
 
-        Raises
-        ------
-        CurveError
-            For a sphere; for a ``PeriodMatrix`` without a certificate; for a period matrix of a product of lower genera, which is no curve's, or one
-            so near that its balls cannot tell.
-        NotASiegelPointError
-            If Π is no point of the Siegel upper half-space.
-        ValueError
-            If the degree is no positive integer.
+    Raises
+    ------
+    CurveError
+        For a sphere; for a ``PeriodMatrix`` without a certificate; for a period matrix of a product
+        of lower genera, which is no curve's, or one so near that its balls cannot tell.
+    NotASiegelPointError
+        If Π is no point of the Siegel upper half-space.
+    ValueError
+        If the degree is no positive integer.
 
-        Examples
-        --------
-        >>> import flint
-    import numpy as np
-        >>> with flint.ctx.workdps(40):
-        ...     root = flint.arb(3).sqrt()
-        ...     Pi = flint.acb_mat([[2, -1], [-1, 2]]) * (flint.acb(0, 1) / root)
-        ...     curve(Pi).equation
-        'y^2 = x^6 - 1'
+    Examples
+    --------
+    >>> import flint
+    >>> with flint.ctx.workdps(40):
+    ...     root = flint.arb(3).sqrt()
+    ...     Pi = flint.acb_mat([[2, -1], [-1, 2]]) * (flint.acb(0, 1) / root)
+    ...     curve(Pi).equation
+    'y^2 = x^6 - 1'
     """
     genus = len(check_siegel_point(Pi))
     degree = checked_integer("degree", degree)

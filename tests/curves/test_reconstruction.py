@@ -120,7 +120,7 @@ def test_floats_give_a_few_digits():
 
 
 def test_a_certificate_is_what_is_known():
-    """Ω₂ by high degree: a few digits, and by linear functions too few to tell it from a product."""
+    """Ω₂ by high degree: a few digits; Ω₁ by linear functions: none."""
     K = ip.surfaces.square_tiled_surface("omega_2", n=2)
     known = ip.curve(ip.period_matrix(K, degree=8))
     assert 6 <= known.digits <= 9
