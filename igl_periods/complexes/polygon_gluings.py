@@ -93,6 +93,12 @@ class GluedPolygons(ReadOnlyArrays):
         p, q = polygon[corners[s - 2]], polygon[corners[s - 1]]
         return q[0] - p[0], q[1] - p[1]
 
+    def vector_ball(self, half_edge: int, bits: int) -> flint.acb:
+        """The side of a face as a vector of the plane, in a ball."""
+        p, q = _ends(self, half_edge)
+        with flint.ctx.workprec(bits):
+            return flint.acb(*(ball_of(b, bits) - ball_of(a, bits) for a, b in zip(p, q)))
+
 
 def glued_polygons(
     polygons: Iterable[Any], gluing: Iterable[Any], edges: bool

@@ -99,7 +99,7 @@ def development(K: DeltaComplex) -> Development:
             exact = K.exact_lengths if K.mollification == 0.0 else None
             known_by = "floats" if exact is None else "balls"
             v = _laid_out(K)
-        turned, rotations = _unfolded(K, v, known_by == "exact")
+        turned, rotations = _unfolded(K, v, _first_frame(K, known_by))
     return Development(K, turned, rotations, known_by)
 
 
@@ -120,10 +120,19 @@ def _laid_out(K: DeltaComplex) -> list[flint.acb]:
     return vectors
 
 
-def _unfolded(K: DeltaComplex, v: list[Any], exact: bool) -> tuple[list[Any], dict[int, Any]]:
+def _first_frame(K: DeltaComplex, known_by: str) -> Any:
+    """The rotation of face 0: as it lies in its polygon, where there is one."""
+    if known_by == "exact":
+        return ExactComplex(Fraction(1), Fraction(0))
+    if K.polygons is None:
+        return flint.acb(1)
+    side = K.polygons.vector_ball(0, BITS)
+    return side / abs(side)
+
+
+def _unfolded(K: DeltaComplex, v: list[Any], first: Any) -> tuple[list[Any], dict[int, Any]]:
     twin = K.twin.ravel().tolist()
-    one = ExactComplex(Fraction(1), Fraction(0)) if exact else flint.acb(1)
-    turn: dict[int, Any] = {0: one}
+    turn: dict[int, Any] = {0: first}
     waiting, tree = deque([0]), set()
     while waiting:
         f = waiting.popleft()

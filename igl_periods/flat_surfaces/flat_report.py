@@ -73,7 +73,8 @@ class FlatSurfaceReport(ReadOnlyArrays):
         The area, where the surface was glued from polygons with exact coordinates.
     form : (n_edges,) complex or None
         The cochain dz of a translation surface, along the edges in their directions; None of other
-        surfaces.
+        surfaces.  Face 0 lies as in its polygon; without polygons, with its side 0 along the
+        positive axis.
     periods : (2g,) complex or None
         Its periods along the canonical cycles a_1, …, a_g, b_1, …, b_g
         (:func:`~igl_periods.cohomology_basis`).

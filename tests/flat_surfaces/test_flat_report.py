@@ -94,6 +94,25 @@ def test_turned_pieces_are_still_a_translation_surface():
     assert found.exact_area == Fraction(5, 2)
 
 
+def test_dz_does_not_depend_on_how_coordinates_are_known():
+    polygon = l_vertices(GOLDEN, 3)
+    exactly = ip.flat_surface_report(ip.DeltaComplex.from_polygons([polygon], L_PAIRS))
+
+    def golden(bits):
+        return (1 + flint.arb(5).sqrt()) / 2
+
+    doubles = [(float(x), float(y)) for x, y in polygon]
+    for other, known_by in ((l_vertices(golden, 3), "balls"), (doubles, "floats")):
+        if known_by == "floats":
+            # Turned by an angle, so that lengths of glued sides are rounded differently.
+            other = [z * np.exp(0.3j) for z in (complex(x, y) for x, y in other)]
+        K = ip.DeltaComplex.from_polygons([other], L_PAIRS)
+        found = ip.flat_surface_report(K)
+        turn = np.exp(0.3j) if known_by == "floats" else 1
+        assert found.known_by == known_by
+        assert np.allclose(found.periods, turn * exactly.periods, rtol=1e-12, atol=1e-12)
+
+
 def test_half_translation_surfaces_of_polygons():
     # A rectangle folded up: the pillowcase, and a genus 2 surface in Q(4) has dz² only.
     pillow = ip.DeltaComplex.from_polygons(
