@@ -44,7 +44,7 @@ from .equivalence import (
     moduli_distance,
     symplectic_isomorphisms,
 )
-from .balls_in_comparison import reduced_balls
+from .balls_in_comparison import ReducedBalls, reduced_balls
 from .isometries_in_balls import ball_isometries
 from .marking_search import NearestMarking, nearest_marking
 from .finite_groups import FiniteGroup, are_isomorphic, direct_product, group_of_matrices
@@ -64,6 +64,7 @@ from .quadratic_numbers import QuadraticGuess, recognise_entries, recognise_quad
 from .lattice_isometries import isometries
 
 __all__ = [
+    "ReducedBalls",
     "reduced_balls",
     "ball_isometries",
     "ARRAY_TOLERANCE",
