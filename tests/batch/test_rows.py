@@ -46,8 +46,7 @@ def test_a_row_holds_the_reduced_matrix_bit_for_bit(name):
         if name.endswith("off"):
             pm = ip.period_matrix(*ip.load_mesh(surface)[:2]).reduced()
         else:
-            gluing = json.loads(surface.read_text())
-            pm = ip.period_matrix(ip.DeltaComplex.from_gluing(**gluing)).reduced()
+            pm = ip.period_matrix(ip.DeltaComplex.from_json(surface.read_text())).reduced()
     assert np.array_equal(matrix(row), pm.matrix)
     assert row["bound"] == pm.bound
     assert row["entry_bound"] == pm.entry_bounds.max()
