@@ -88,9 +88,11 @@ def checked_corners(F: ArrayLike, n_vertices: int | None) -> Ints:
             f"F has negative indices (the least is {low}); vertices are counted from 0."
         )
     if n_vertices is not None and high >= n_vertices:
+        # Faces that are counted from 1 have no 0, and are out of range by one.
+        question = " Are the faces counted from 1?" if low > 0 and high == n_vertices else ""
         raise MeshError(
-            f"F refers to vertex {high}, out of range: V has {n_vertices} rows, counted from 0. "
-            "Are the faces counted from 1?"
+            f"F refers to vertex {high}, out of range: V has {n_vertices} rows, counted from 0."
+            f"{question}"
         )
     if high > np.iinfo(np.int64).max // 2:
         raise MeshError(f"F refers to vertex {high}, which is no sensible index.")
