@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from igl_periods.arrays import Floats, Ints
+from igl_periods.display import counted
 from igl_periods.errors import ComplexError, MeshError
 
 _GLUED_TOLERANCE = 1e-9
@@ -35,8 +36,8 @@ def check_finite(positions: Floats, faces: Ints) -> None:
     wrong = np.intersect1d(np.flatnonzero(~np.isfinite(positions).all(axis=1)), faces)
     if wrong.size:
         raise MeshError(
-            f"{wrong.size} vertices have coordinates that are NaN or infinite; the first is "
-            f"vertex {wrong[0]}."
+            f"{counted(wrong.size, 'vertex has', 'vertices have')} coordinates that are NaN or "
+            f"infinite; the first is vertex {wrong[0]}."
         )
 
 
