@@ -114,7 +114,7 @@ def after_flips(lengths: Balls, rounds: list[Flips]) -> Balls:
     if unknown.size:
         raise ComplexError(
             f"rounding hides whether {counted(unknown.size, 'edge', 'edges')} can be flipped, edge "
-            f"{unknown[0]} the first: the triangles there are too extreme. Remesh them, or keep the "
+            f"{unknown[0]} the first: the triangles are too extreme. Remesh them, or keep the "
             "triangulation as it is (delaunay=False, --no-delaunay)."
         )
     return now
