@@ -154,14 +154,15 @@ def add_json_argument(command: Parser) -> None:
 def add_output_argument(command: Parser, what: str, *suffixes: str) -> None:
     """Add the file that a command writes: its name is checked here, its place in :func:`claim`."""
 
+    known = " or ".join(suffixes)
+
     def output(text: str) -> str:
         if Path(text).suffix.lower() not in suffixes:
-            known = " or ".join(suffixes)
             raise argparse.ArgumentTypeError(f"{what} has a name in {known}, not {text!r}")
         return text
 
     command.add_argument(
-        "-o", "--output", required=True, type=output, metavar="FILE", help=f"{what} ({suffixes[0]})"
+        "-o", "--output", required=True, type=output, metavar="FILE", help=f"{what} ({known})"
     )
 
 
