@@ -153,7 +153,6 @@ def add_json_argument(command: Parser) -> None:
 
 def add_output_argument(command: Parser, what: str, *suffixes: str) -> None:
     """Add the file that a command writes: its name is checked here, its place in :func:`claim`."""
-
     known = " or ".join(suffixes)
 
     def output(text: str) -> str:
