@@ -14,6 +14,7 @@ page.  In reading order:
 ``meshes``         a file → V, F
 ``complexes``      V, F → K, and the moves (K, c) → (K′, c′)
 ``topology``       K → integer cochains, cycles
+``flat_surfaces``  a flat surface → stratum, holonomy, area, dz and its periods
 ``harmonic``       K, cochains → D, by linear functions
 ``elements``       K, cochains → D, by functions of high degree, conical at cone points
 ``proofs``         the same energies in midpoint–radius arithmetic
@@ -26,6 +27,7 @@ page.  In reading order:
 ``forms``          the discrete theory of the paper on Λ = Γ ⊕ Γ*
 ``deformations``   Π* → a surface that has it
 ``differentials``  Π on the mesh → holomorphic forms, parametrization, Abel–Jacobi
+``jacobians``      Π → endomorphisms of the Jacobian, and its factors
 ``domains``        domains with holes → capacities and extremal lengths
 ``surfaces``       reference surfaces, their exact Π, and which of them a Π is
 ``pictures``, ``reports``, ``cli``, ``batch``, ``distributed``, ``machine``
@@ -51,7 +53,7 @@ from .errors import (
     RenderError,
 )
 from .meshes import MeshReport, load_mesh, sample_files, split_components
-from .complexes import DeltaComplex, double, intrinsic_delaunay
+from .complexes import DeltaComplex, algebraic_number, double, intrinsic_delaunay
 from .recognition import (
     AlgebraicNumber,
     NumberField,
@@ -64,6 +66,12 @@ from .topology import (
     fundamental_polygon,
     homology_basis,
     shortest_loops,
+)
+from .flat_surfaces import (
+    FlatSurfaceReport,
+    flat_surface_report,
+    from_flatsurf,
+    to_flatsurf_dict,
 )
 from .harmonic import harmonic_form_blocks, harmonic_forms
 from .periods import (
@@ -121,6 +129,14 @@ from .differentials import (
     most_even_form,
     parametrize,
 )
+from .jacobians import (
+    EigenformRing,
+    EndomorphismRing,
+    JacobianFactors,
+    eigenform_ring,
+    endomorphisms,
+    jacobian_factors,
+)
 from .domains import (
     CapacityEnclosure,
     CapacityMatrix,
@@ -149,6 +165,7 @@ __all__ = [
     "sample_files",
     "MeshReport",
     "DeltaComplex",
+    "algebraic_number",
     "double",
     "intrinsic_delaunay",
     # topology
@@ -157,6 +174,11 @@ __all__ = [
     "dual_homology_basis",
     "fundamental_polygon",
     "shortest_loops",
+    # flat surfaces
+    "flat_surface_report",
+    "FlatSurfaceReport",
+    "from_flatsurf",
+    "to_flatsurf_dict",
     # period matrices
     "period_matrix",
     "period_matrix_from_weights",
@@ -211,6 +233,13 @@ __all__ = [
     "Identification",
     "catalogue",
     "surfaces",
+    # Jacobians
+    "endomorphisms",
+    "EndomorphismRing",
+    "eigenform_ring",
+    "EigenformRing",
+    "jacobian_factors",
+    "JacobianFactors",
     # surfaces with the period matrix that one wants
     "deform_to",
     "lengths_with",
