@@ -73,7 +73,7 @@ from .exact_lengths import (
     lattice_length,
     root_of,
 )
-from .lattices import LatticeGluing, checked_lattice, lattice_gluing
+from .lattices import Cell, LatticeGluing, checked_lattice, lattice_gluing
 from .mesh_readers import is_array_like, mesh_reader
 from .delta_complex import DeltaComplex
 from .surface_arguments import (
@@ -127,6 +127,7 @@ __all__ = [
     "is_array_like",
     "mesh_reader",
     "LatticeGluing",
+    "Cell",
     "checked_lattice",
     "lattice_gluing",
     "DeltaComplex",

@@ -66,7 +66,7 @@ from .gluings import (
     reversing_sides,
     twins_of_faces,
 )
-from .lattices import lattice_gluing
+from .lattices import Cell, lattice_gluing
 from .mesh_readers import vertices_and_faces
 from .surface_checks import check_surface, topology_in_words
 from .triangles import mollify
@@ -112,6 +112,8 @@ class DeltaComplex(ReadOnlyArrays):
         The lengths of the edges as balls, for a precision in bits, where the doubles in ``lengths``
         are rounded (:mod:`igl_periods.complexes.exact_lengths`); what is proved is proved about
         these.  Where there is no such function, the doubles are the lengths, exactly.
+    cell : Cell or None
+        Where the faces of the quotient of a periodic surface lie in space.
     """
 
     lengths: Floats
@@ -126,6 +128,7 @@ class DeltaComplex(ReadOnlyArrays):
     mollification: float = 0.0
     distortion: Floats | None = None
     exact_lengths: ExactLengths | None = None
+    cell: Cell | None = None
 
     def __repr__(self) -> str:
         sizes = [
@@ -356,7 +359,7 @@ def _quotient(V: Floats, F: Ints, lattice: ArrayLike, tolerance: float) -> Delta
     K = _assemble(glued.lengths, glued.twin, glued.same)
     labels = np.full(K.n_vertices, len(V), dtype=np.int64)
     np.minimum.at(labels, K.corner_vertex, F)
-    return replace(K, labels=labels)
+    return replace(K, labels=labels, cell=glued.cell)
 
 
 def _restricted(K: DeltaComplex, chosen: Ints, new_face: Ints) -> DeltaComplex:
@@ -372,6 +375,7 @@ def _restricted(K: DeltaComplex, chosen: Ints, new_face: Ints) -> DeltaComplex:
         positions=None if K.positions is None else K.positions[vertices],
         mollification=K.mollification,
         distortion=None if K.distortion is None else K.distortion[chosen],
+        cell=None if K.cell is None else K.cell.of_faces(chosen),
     )
 
 
