@@ -43,7 +43,7 @@ from igl_periods.errors import ComplexError
 from igl_periods.symplectic import energy_matrix, standard_form
 
 from .boundary_classes import BoundaryLoop, boundary_loops
-from .capacities import capacity_matrix
+from .capacities import CapacityMatrix, capacity_matrix
 from .quadrilaterals import insulated_sides
 
 
@@ -58,11 +58,17 @@ class SlitMap:
     complex : DeltaComplex
     loops : list of BoundaryLoop
         C_1 … C_n.
+    polar : bool
+        Whether 0 is a centre of the image: boundary loops become circles, arcs or pieces of rays.
+    is_bounded : bool
+        Whether no point of the domain goes to infinity.
     """
 
     values: Complexes
     complex: DeltaComplex
     loops: list[BoundaryLoop]
+    polar: bool
+    is_bounded: bool = True
 
     def __repr__(self) -> str:
         return f"SlitMap of {self.complex.n_vertices} vertices, {len(self.loops)} boundary loops"
@@ -93,8 +99,8 @@ def circular_slit_map(K: DeltaComplex, inner: int = 1, *, degree: int = 6) -> Sl
     flux = np.zeros(n - 1)
     flux[inner - 1] = -2 * np.pi
     levels = np.concatenate([[0.0], np.linalg.solve(C.grounded, flux)])
-    dp, dq = _differentials(K, levels, degree)
-    return SlitMap(np.exp(_integrated(K, dp + 1j * dq, loops[0])), K, loops)
+    dp, dq = _differentials(C, levels, degree)
+    return SlitMap(np.exp(_integrated(K, dp + 1j * dq, loops[0])), K, loops, polar=True)
 
 
 @of_a_surface
@@ -115,9 +121,9 @@ def radial_slit_map(K: DeltaComplex, inner: int = 1, *, degree: int = 6) -> Slit
     levels = np.array(chosen, dtype=np.float64)
     # Both copies of the inner loop together have twice the flux of one.
     levels *= -4 * np.pi / float(levels @ C.matrix @ levels)
-    dp, dq = _differentials(M, levels, degree)
+    dp, dq = _differentials(C, levels, degree)
     first = slice(0, 3 * K.n_faces)
-    return SlitMap(np.exp(_integrated(K, (dp + 1j * dq)[first], loops[0])), K, loops)
+    return SlitMap(np.exp(_integrated(K, (dp + 1j * dq)[first], loops[0])), K, loops, polar=True)
 
 
 @of_a_surface
@@ -142,19 +148,19 @@ def parallel_slit_map(K: DeltaComplex, corners: ArrayLike, *, degree: int = 6) -
         As for :func:`extremal_length`, and if the surface has handles.
     """
     loops = boundary_loops(K)
-    _check_planar(K, loops)
+    check_planar(K, loops)
     mirrors, chosen = insulated_sides(K, corners)
     M = double(K, along=mirrors)
     start = {int(M.labels[v]) for v in boundary_loops(M)[0].vertices}
     levels = np.array([0.0, 1.0]) if int(chosen[0]) in start else np.array([1.0, 0.0])
-    dp, dq = _differentials(M, levels, degree)
+    dp, dq = _differentials(capacity_matrix(M, degree=degree), levels, degree)
     w = _integrated(K, (dp + 1j * dq)[: 3 * K.n_faces], loops[0])
-    return SlitMap(w - w[np.flatnonzero(K.labels == chosen[1])[0]], K, loops)
+    return SlitMap(w - w[np.flatnonzero(K.labels == chosen[1])[0]], K, loops, polar=False)
 
 
 def _loops(K: DeltaComplex, inner: int) -> list[BoundaryLoop]:
     loops = boundary_loops(K)
-    _check_planar(K, loops)
+    check_planar(K, loops)
     if not 1 <= inner < len(loops):
         raise ComplexError(
             f"inner = {inner}: of {len(loops)} boundary loops, counted from 0, one from 1 to "
@@ -163,7 +169,13 @@ def _loops(K: DeltaComplex, inner: int) -> list[BoundaryLoop]:
     return loops
 
 
-def _check_planar(K: DeltaComplex, loops: list[BoundaryLoop]) -> None:
+def check_planar(K: DeltaComplex, loops: list[BoundaryLoop]) -> None:
+    """Raise unless a surface with these boundary loops has genus 0.
+
+    Raises
+    ------
+    ComplexError
+    """
     handles = (2 - len(loops) - K.euler_characteristic) // 2
     if handles:
         raise ComplexError(
@@ -171,9 +183,8 @@ def _check_planar(K: DeltaComplex, loops: list[BoundaryLoop]) -> None:
         )
 
 
-def _differentials(M: DeltaComplex, levels: Floats, degree: int) -> tuple[Floats, Floats]:
+def _differentials(C: CapacityMatrix, levels: Floats, degree: int) -> tuple[Floats, Floats]:
     """Integrals along half-edges of dp, p = Σ levels_i u_i, and of dq = *dp; (3 m,) each."""
-    C = capacity_matrix(M, degree=degree)
     pm = C.period_matrix
     dp = 2.0 * levels @ C.coefficients
     dq = dp @ energy_matrix(pm.matrix) @ standard_form(pm.genus)
@@ -183,7 +194,7 @@ def _differentials(M: DeltaComplex, levels: Floats, degree: int) -> tuple[Floats
     f = forms.traces[: L.n_vertices]
     tail, head = half_edge_ends(L)
     cochains = (L.sign.ravel()[:, None]) * pm.cocycles.T.tocsr()[L.edge.ravel()].toarray()
-    along = (cochains + f[head] - f[tail])[: 3 * M.n_faces]
+    along = (cochains + f[head] - f[tail])[: 3 * C.complex.n_faces]
     return np.asarray(along @ dp), np.asarray(along @ dq)
 
 

@@ -11,6 +11,7 @@ and is not imported before.  That happens in a process of its own, which may abo
 ``sheets``             what there is to see of a surface
 ``cells``              cells of periodic surfaces: cycles through them, several copies
 ``tubes``              closed walks as smooth tubes
+``domain_pictures``    harmonic measures, slit maps
 ``rendering``          scenes to pixels, in a process with a time limit
 ``drawing``            what that process does, with Open3D
 ``drivers``            what Open3D needs of the system
@@ -31,6 +32,7 @@ from .sheets import surface_in_space
 from .cells import periodic_copies
 from .derivative_scenes import quadratic_scene, sensitivity_scene
 from .rendering import check_display, render, save, show, with_legend
+from .domain_pictures import measure_picture, slit_map_picture
 from .textured_meshes import write_glb, write_obj
 
 __all__ = [
@@ -50,6 +52,8 @@ __all__ = [
     "save",
     "show",
     "with_legend",
+    "measure_picture",
+    "slit_map_picture",
     "write_glb",
     "write_obj",
 ]
