@@ -16,7 +16,9 @@ and entry by entry.
 ``boundary_classes``     the loops, and the classes that they make on the double
 ``measures``             the functions u_i
 ``capacities``           the capacity matrix between its bounds
+``energy_blocks``        both blocks of energies, of surfaces with handles too
 ``capacity_balls``       the same in balls, to as many digits as are asked for
+``homogenisation``       effective conductivities of periodic surfaces and plates
 ``quadrilaterals``       extremal lengths between two of four sides
 ``slit_maps``            conformal maps onto annuli and rectangles with slits
 ``functions_with_poles`` analytic functions with poles, constant in part on each loop
@@ -33,7 +35,9 @@ from .domain_files import is_domain_file, read_domain
 from .boundary_classes import BoundaryLoop, boundary_loops
 from .measures import harmonic_measures
 from .capacities import Bounds, CapacityMatrix, capacity_matrix
+from .energy_blocks import EnergyBlocks, energy_blocks
 from .capacity_balls import CapacityEnclosure, enclosed_capacities
+from .homogenisation import EffectiveConductivity, effective_conductivity
 from .quadrilaterals import ExtremalLength, extremal_length
 from .slit_planes import (
     circular_slit_disc,
@@ -53,8 +57,12 @@ __all__ = [
     "Bounds",
     "CapacityMatrix",
     "capacity_matrix",
+    "EnergyBlocks",
+    "energy_blocks",
     "CapacityEnclosure",
     "enclosed_capacities",
+    "EffectiveConductivity",
+    "effective_conductivity",
     "ExtremalLength",
     "extremal_length",
     "SlitMap",

@@ -42,6 +42,7 @@ def test_extras_are_those_of_the_installation():
         "pictures",
         "batch",
         "completion",
+        "domains",
     }
     required = set(re.findall(r'^  "([\w-]+)', section("project"), re.M))
     assert required.isdisjoint(DISTRIBUTIONS.get(package, package) for package in BROUGHT)
