@@ -109,10 +109,11 @@ def _pieces(block: _Block, curve: SmoothCurve, holonomy: Floats) -> list[Piece]:
     breaks = np.flatnonzero((steps != after).any(axis=1))
     if breaks.size == 0:
         return [(curve.points - offset, curve.normals, True)]
-    # Begun at a break, the curve is twice itself up to the holonomy.
+    # From a break to the same one in the next round, and one point more.
     n = len(steps)
-    points = np.concatenate([curve.points, curve.points + holonomy])
-    normals = np.concatenate([curve.normals, curve.normals])
+    rounds = np.arange(2 * n + 1) // n
+    points = np.resize(curve.points, (2 * n + 1, 3)) + rounds[:, None] * holonomy
+    normals = np.resize(curve.normals, (2 * n + 1, 3))
     pieces = []
     for first, last in pairwise([*breaks.tolist(), int(breaks[0]) + n]):
         rows = np.arange(first + 1, last + 2)

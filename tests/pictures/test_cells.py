@@ -15,10 +15,14 @@ from igl_periods.surfaces import triply_periodic_minimal_surface
 from igl_periods.topology import canonical_cycles
 
 
+def reduced(name, n):
+    V, F, lattice = triply_periodic_minimal_surface(name, n)
+    return ip.period_matrix(ip.DeltaComplex.from_mesh(V, F, lattice=lattice)).reduced()
+
+
 @pytest.fixture(scope="module")
 def gyroid():
-    V, F, lattice = triply_periodic_minimal_surface("G", 3)
-    return ip.period_matrix(ip.DeltaComplex.from_mesh(V, F, lattice=lattice)).reduced()
+    return reduced("G", 3)
 
 
 def holonomies(K, walks):
@@ -36,13 +40,15 @@ def test_walks_lead_to_translates(gyroid):
     assert np.linalg.matrix_rank(cells) == 3
 
 
-def test_pieces_lie_in_the_cell_and_continue_each_other(gyroid):
-    K = gyroid.complex
+@pytest.mark.parametrize(("name", "n"), [("G", 3), ("D", 2), ("P", 2)])
+def test_pieces_lie_in_the_cell_and_continue_each_other(name, n):
+    pm = reduced(name, n)
+    K = pm.complex
     sheet = Sheet.of(K)
     tree = igl.AABB()
     tree.init(sheet.V, sheet.F)
     step = 0.0065 * np.linalg.norm(np.ptp(sheet.V, axis=0))
-    walks = canonical_cycles(K, gyroid.cocycles)
+    walks = canonical_cycles(K, pm.cocycles)
     inverse = np.linalg.inv(K.cell.lattice)
     for pieces, holonomy in zip(smooth_cycles(sheet, walks), holonomies(K, walks)):
         total = np.zeros(3)
