@@ -117,10 +117,15 @@ from .differentials import (
 from .domains import (
     CapacityEnclosure,
     CapacityMatrix,
+    EffectiveConductivity,
+    EnergyBlocks,
     ExtremalLength,
     capacity_matrix,
+    effective_conductivity,
     enclosed_capacities,
+    energy_blocks,
     extremal_length,
+    read_domain,
 )
 from .deformations import (
     Deformation,
@@ -170,6 +175,11 @@ __all__ = [
     "CapacityEnclosure",
     "extremal_length",
     "ExtremalLength",
+    "energy_blocks",
+    "EnergyBlocks",
+    "effective_conductivity",
+    "EffectiveConductivity",
+    "read_domain",
     # the Siegel upper half-space
     "siegel_reduce",
     "siegel_transform",

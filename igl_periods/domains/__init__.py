@@ -16,7 +16,7 @@ and entry by entry.
 ``boundary_classes``     the loops, and the classes that they make on the double
 ``measures``             the functions u_i
 ``capacities``           the capacity matrix between its bounds
-``energy_blocks``        both blocks of energies, of surfaces with handles too
+``conjugate_blocks``     both blocks of energies, of surfaces with handles too
 ``capacity_balls``       the same in balls, to as many digits as are asked for
 ``homogenisation``       effective conductivities of periodic surfaces and plates
 ``quadrilaterals``       extremal lengths between two of four sides
@@ -35,7 +35,7 @@ from .domain_files import is_domain_file, read_domain
 from .boundary_classes import BoundaryLoop, boundary_loops
 from .measures import harmonic_measures
 from .capacities import Bounds, CapacityMatrix, capacity_matrix
-from .energy_blocks import EnergyBlocks, energy_blocks
+from .conjugate_blocks import EnergyBlocks, energy_blocks
 from .capacity_balls import CapacityEnclosure, enclosed_capacities
 from .homogenisation import EffectiveConductivity, effective_conductivity
 from .quadrilaterals import ExtremalLength, extremal_length

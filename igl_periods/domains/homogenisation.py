@@ -11,7 +11,7 @@ defined by
 cohomology that count cells: :math:`dx = \sum n_j L_j + d(\dots)`.  Where M/Λ is closed they are
 part of the Dirichlet matrix.  Where it has boundary loops, the holes are insulating, the energies
 those of the insulated block, or filled with perfect conductors, each at a potential of its own:
-those of the conducting block (:mod:`~igl_periods.domains.energy_blocks`), the least over these
+those of the conducting block (:mod:`~igl_periods.domains.conjugate_blocks`), the least over these
 potentials.
 
 Both bounds of the Dirichlet matrix bound σ, in the Loewner order.  For a plate in the plane, with R
@@ -52,7 +52,7 @@ from igl_periods.symplectic import energy_matrix
 
 from .boundary_classes import BoundaryLoop, boundary_loops, doubled_with_classes
 from .capacities import Bounds, coordinates
-from .energy_blocks import energy_bounds
+from .conjugate_blocks import energy_bounds
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -8,7 +8,7 @@ from support.random_surfaces import noisy_torus
 
 import igl_periods as ip
 from igl_periods.domains import capacity_matrix
-from igl_periods.domains.energy_blocks import energy_blocks
+from igl_periods.domains.conjugate_blocks import energy_blocks
 from igl_periods.surfaces import planar_domain
 from igl_periods.symplectic import standard_form
 
