@@ -33,7 +33,6 @@ _ROUNDING = 1e-12
 _MOST_ROUNDS = 400
 _SHARP = 0.5  # the cosine of 60 degrees
 _SAME = 1e-6
-_PAIRS_AT_ONCE = 2**22
 
 
 class Quality(NamedTuple):
@@ -110,7 +109,8 @@ def triangulated(P: Floats, rings: list[Ints], quality: Quality) -> tuple[Floats
 
 def constrained_delaunay(mesh: PlaneMesh) -> PlaneMesh:
     """Flip inner edges until the angles opposite to each add up to 180 degrees at most."""
-    for _ in range(_MOST_ROUNDS):
+    # Every flip lowers the Dirichlet energies, so that they end; in a fan one calls for the next.
+    for _ in range(_MOST_ROUNDS + 4 * len(mesh.F)):
         illegal = _illegal(mesh)
         if illegal.size == 0:
             break
@@ -236,21 +236,30 @@ def _centres(mesh: PlaneMesh, boundary: _Boundary, quality: Quality) -> tuple[Fl
     cuts = [beyond[beyond >= 0]]
     inside = beyond < 0
     face, centre, radius, where = face[inside], centre[inside], radius[inside], where[inside]
-    encroaching = np.zeros(len(face), dtype=bool)
-    side = np.flatnonzero(mesh.twin.ravel() < 0)
-    a, b = (mesh.P[end] for end in mesh.ends(side))
-    step = max(1, _PAIRS_AT_ONCE // max(side.size, 1))
-    for k in range(0, len(face), step):
-        p = centre[k : k + step, None]
-        near = np.einsum("psi,psi->ps", a - p, b - p) < 0
-        # A centre may lie on a side; those that look away, behind a hole, are not seen.
-        near &= turn(a, b, p) > -_ROUNDING
-        encroaching[k : k + step] = near.any(axis=1)
-        cuts.append(side[near.any(axis=0)])
+    point, side = _encroaching(mesh, centre)
+    cuts.append(side)
     found = np.unique(np.concatenate(cuts))
-    keep = ~encroaching
+    keep = np.ones(len(face), dtype=bool)
+    keep[point] = False
     apart = _apart(centre[keep], 0.5 * radius[keep], where[keep])
     return centre[keep][apart], where[keep][apart], found
+
+
+def _encroaching(mesh: PlaneMesh, points: Floats) -> tuple[Ints, Ints]:
+    """Points that lie in the circle around a free side, and the side, pair by pair."""
+    from scipy.spatial import cKDTree  # slow to import
+
+    none = np.zeros(0, dtype=np.int64)
+    if len(points) == 0:
+        return none, none
+    side = np.flatnonzero(mesh.twin.ravel() < 0)
+    a, b = (mesh.P[end] for end in mesh.ends(side))
+    near = cKDTree(points).query_ball_point(0.5 * (a + b), 0.5 * np.linalg.norm(b - a, axis=1))
+    which = np.repeat(np.arange(side.size), [len(found) for found in near])
+    point = np.array([k for found in near for k in found], dtype=np.int64)
+    # A centre may lie on a side; those that look away, behind a hole, are not seen.
+    seen = turn(a[which], b[which], points[point]) > -_ROUNDING
+    return point[seen], side[which[seen]]
 
 
 def _poor(mesh: PlaneMesh, boundary: _Boundary, quality: Quality) -> tuple[Ints, Floats, Floats]:

@@ -50,6 +50,17 @@ def test_sharp_corners_keep_their_angles_and_nothing_else_does():
         assert len(V) < 400
 
 
+@pytest.mark.parametrize("n", [400, 1000])
+def test_regular_polygons_of_many_corners(n):
+    # All corners are on one circle: its centre is that of all triangles.
+    V, F = planar_domain(circle(n))
+    assert angles(V, F).min() > 25 - 1e-9
+    assert turn(*(V[F[:, k]] for k in range(3))).sum() == pytest.approx(
+        n * np.sin(2 * np.pi / n), rel=1e-12
+    )
+    assert len(V) < 5 * n
+
+
 def test_points_lie_on_sides_or_inside():
     outer = circle(7) * np.exp(0.3j)
     V, F = planar_domain(outer, [0.3 * circle(5)], area=0.01)
