@@ -24,9 +24,7 @@ def plate(tmp_path):
     "show",
     [
         [],
-        ["--loop", "1"],
         ["--show", "radial"],
-        ["--show", "circular-disc", "--point", "0.5,0.5"],
         ["--show", "parallel", "--point", "0.5,2"],
     ],
 )

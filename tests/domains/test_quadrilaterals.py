@@ -57,7 +57,7 @@ def prevertices_of_the_ell():
     return np.append(0.0, -1 / (np.array([-1, -a, 0, a, 1]) + 2))
 
 
-@pytest.mark.parametrize("corners", list(combinations(range(6), 4)))
+@pytest.mark.parametrize("corners", list(combinations(range(6), 4))[::2])
 def test_ells_by_the_formula_of_schwarz_and_christoffel(corners):
     x = prevertices_of_the_ell()
     order = sorted(corners, key=lambda k: x[k])
