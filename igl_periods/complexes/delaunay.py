@@ -146,6 +146,7 @@ def delaunay_flips(K: DeltaComplex) -> tuple[DeltaComplex, list[Flips]]:
         distortion=mesh.distortion_when_rounded(),
         exact_lengths=None,
         cell=None,
+        polygons=None,
     )
     return flipped, rounds
 

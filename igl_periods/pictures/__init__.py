@@ -16,6 +16,7 @@ and is not imported before.  That happens in a process of its own, which may abo
 ``drawing``            what that process does, with Open3D
 ``drivers``            what Open3D needs of the system
 ``textured_meshes``    OBJ with MTL and PNG, and GLB
+``polygon_drawing``    flat surfaces as polygons in the plane, SVG
 =====================  ========================================================================
 """
 
@@ -33,6 +34,7 @@ from .cells import periodic_copies
 from .derivative_scenes import quadratic_scene, sensitivity_scene
 from .rendering import check_display, render, save, show, with_legend
 from .domain_pictures import measure_picture, slit_map_picture
+from .polygon_drawing import render_polygons
 from .textured_meshes import write_glb, write_obj
 
 __all__ = [
@@ -51,6 +53,7 @@ __all__ = [
     "render",
     "save",
     "show",
+    "render_polygons",
     "with_legend",
     "measure_picture",
     "slit_map_picture",
