@@ -70,6 +70,17 @@ def test_cells_stay_with_their_faces():
     assert repr(K.cell) == "Cell(48 faces, 3 translations)"
 
 
+def test_components_of_a_cell_keep_their_places():
+    V, F, lattice = triply_periodic_minimal_surface("P", 1)
+    # The surface and a parallel copy of it, elsewhere in the cell.
+    both = np.vstack([V, V + 0.123]), np.vstack([F, F + len(V)])
+    parts = ip.DeltaComplex.from_mesh(*both, lattice=lattice).components()
+    assert [part.genus for part in parts] == [3, 3]
+    for part, moved in zip(parts, (0.0, 0.123)):
+        assert np.allclose(part.cell.corners, V[F] + moved)
+        check(Sheet.of(part), part)
+
+
 def test_surfaces_without_a_place_are_refused():
     K = ip.DeltaComplex.from_squares([((0, 0), (0, 2)), ((0, 1), (0, 3))])
     with pytest.raises(ip.ComplexError, match="no positions in space"):
