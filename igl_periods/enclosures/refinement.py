@@ -19,10 +19,13 @@ import flint
 import numpy as np
 
 from igl_periods.arrays import Complexes, Floats
+from igl_periods.errors import ComplexError
 
+from .exact_arithmetic import exponent_of
 from .interface_nodes import InterfaceNodes, gauss_nodes
 from .least_squares import LeastSquares
-from .series import PowerTables, Series, excess_bits, exponent_of, face_trace, star_traces
+from .limits import check_time
+from .series import PowerTables, Series, excess_bits, face_trace, star_traces
 from .trial_functions import TrialFunctions
 
 Acb = flint.acb
@@ -119,10 +122,11 @@ def refined(problem: LeastSquares, goal: float) -> Refined:
         # As long as double precision is what limits a step, the next one gains as much.  What it
         # leaves otherwise is what the trial functions cannot do.
         done = gain > _LIMITED and (series is None or level < -_NEARLY * goal)
-        if best is not None and level >= best.residual:
+        # What is no number ends it as well.
+        if best is not None and not level < best.residual:
             return best
         best = Refined(problem, total, jumps, expansion, series, (update, exponent))
-        if level <= -goal or gain > _LEAST_GAIN or done:
+        if not (level > -goal and gain <= _LEAST_GAIN) or done:
             return best
         series = expansion.added(series, update, exponent)
         with flint.ctx.workprec(precision_of(-level + _GAIN) + series.excess_bits):
@@ -231,10 +235,19 @@ class Expansion:
             self._bits.append(bits + size)
 
     def added(self, series: Series | None, update: list[Complexes], exponent: int) -> Series:
-        """Add coefficients of Newton bases, times 2^exponent, to power series."""
+        """Add coefficients of Newton bases, times 2^exponent, to power series.
+
+        Raises
+        ------
+        ComplexError
+            If they are no numbers.
+        """
+        if not all(np.isfinite(a).all() for a in update):
+            raise ComplexError("the coefficients of the series are not finite.")
         scale = flint.arb(2) ** exponent
         found = []
         for cell, a in enumerate(update):
+            check_time()
             forms = [self._expanded(cell, column) for column in a.T.tolist()]
             # Coefficients may be large and cancel each other; errors are to be small as they are.
             with flint.ctx.workprec(self.bits + max(0, exponent + excess_bits(forms))):
