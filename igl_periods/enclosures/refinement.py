@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import zip_longest
 
 import flint
 import numpy as np
@@ -34,8 +35,10 @@ Acb = flint.acb
 # the second number it may have, and is believed to in the first step, and where the goal is near.
 _LEAST_GAIN, _LIMITED, _NEARLY = 1e-4, 1e-9, 0.8
 _CORRECTIONS = 1
-# Digits by which a step reduces it otherwise.
-_GAIN = 14.0
+# Digits by which a step reduces it otherwise, and those from which another solution is a start.
+_GAIN, _GOOD_START = 14.0, 10.0
+# Bits of residuals beyond those that a step gains.
+_GUARD_BITS = 40
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,7 +99,7 @@ class Refined:
         return [np.abs(a).max(axis=1, initial=0.0) for a in self.newton]
 
 
-def refined(problem: LeastSquares, goal: float) -> Refined:
+def refined(problem: LeastSquares, goal: float, before: Refined | None = None) -> Refined:
     """Solve until the residual is 10^−goal, or does not fall any more.
 
     Parameters
@@ -104,16 +107,24 @@ def refined(problem: LeastSquares, goal: float) -> Refined:
     problem : LeastSquares
     goal : float
         Wanted decimal digits of the jumps.
+    before : Refined, optional
+        A solution whose trial functions are the first ones of ``problem``; if it is a good one, its
+        jumps are where this one starts.
     """
     nodes = problem.trial.nodes
     expansion = Expansion(problem.trial, precision_of(goal))
-    values = _jump_rows(nodes)
-    slopes = np.zeros(values.shape, dtype=np.complex128)
     tables = PowerTables(lambda n: [flint.arb(2.0 * s - 1.0) for s in gauss_nodes(n)[0]])
-    total = [np.zeros((K, values.shape[1]), np.complex128) for K in problem.trial.size]
+    total = [np.zeros((K, nodes.cells.jumps.shape[1]), np.complex128) for K in problem.trial.size]
     series: Series | None = None
     best: Refined | None = None
-    exponent = 0
+    if before is not None and before.residual < -_GOOD_START:
+        series = before.series
+        for a, b in zip(total, before.newton):
+            a[: len(b)] = b
+        exponent, values, slopes = _residual(nodes, series, tables, before.residual)
+    else:
+        exponent, values = 0, _jump_rows(nodes)
+        slopes = np.zeros(values.shape, dtype=np.complex128)
     while True:
         update, left = _corrected_solution(problem, values, slopes)
         total = [a + 2.0**exponent * b for a, b in zip(total, update)]
@@ -129,8 +140,7 @@ def refined(problem: LeastSquares, goal: float) -> Refined:
         if not (level > -goal and gain <= _LEAST_GAIN) or done:
             return best
         series = expansion.added(series, update, exponent)
-        with flint.ctx.workprec(precision_of(-level + _GAIN) + series.excess_bits):
-            exponent, values, slopes = _residual(nodes, series, tables)
+        exponent, values, slopes = _residual(nodes, series, tables, level)
 
 
 def precision_of(goal: float) -> int:
@@ -176,6 +186,15 @@ def _left(
 
 
 def _residual(
+    nodes: InterfaceNodes, series: Series, tables: PowerTables, level: float
+) -> tuple[int, Floats, Complexes]:
+    """The jumps that are left, about 10^level, with the digits that a step gains."""
+    bits = int(3.33 * (_GAIN - level)) + _GUARD_BITS
+    with flint.ctx.workprec(bits + series.excess_bits):
+        return _jumps(nodes, series, tables)
+
+
+def _jumps(
     nodes: InterfaceNodes, series: Series, tables: PowerTables
 ) -> tuple[int, Floats, Complexes]:
     """The jumps that are left, divided by 2^exponent; rows as ``LeastSquares.solve`` wants them."""
@@ -256,7 +275,10 @@ class Expansion:
                     continue
                 before = series.coefficients[cell]
                 found.append(
-                    [[(b + c * scale).mid() for b, c in zip(x, y)] for x, y in zip(before, forms)]
+                    [
+                        [(b + c * scale).mid() for b, c in zip_longest(x, y, fillvalue=Acb(0))]
+                        for x, y in zip(before, forms)
+                    ]
                 )
         return Series(self.trial.nodes.cells, found)
 

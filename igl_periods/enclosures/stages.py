@@ -51,6 +51,7 @@ class Stages:
         self._goal = next_goal(0.0, self._final)
         self._size = first_sizes(cells, self._goal)
         self.closest: Refined | None = None
+        self._last: Refined | None = None
         self.reason = ""
         limits.check_memory(cells, self._size)
 
@@ -59,11 +60,12 @@ class Stages:
         before = self.closest
         while not self.reason:
             with stage(f"series for jumps of 1e-{self._goal:.1f}"):
-                solve = partial(solution_for, self.cells, self._size, self._goal)
+                solve = partial(solution_for, self.cells, self._size, self._goal, self._last)
                 found = self.limits.solved(solve, self._size, self.closest is not before)
             if found is None:
                 self.reason = self.limits.out_of_time()
                 break
+            self._last = found
             logger.info(
                 "jumps of 1e%.1f with %d functions, about %.1f digits",
                 found.residual,
@@ -98,11 +100,13 @@ class Stages:
         # What was asked for in vain is not asked for again.
         again = min(self._goal, self._final) + 0.5 * max(self._goal - reached, 0.0)
         self._goal = max(next_goal(reached, self._final), again)
-        self._size = next_sizes(self.cells, found.sizes, found.jumps, self._goal)
+        size = next_sizes(self.cells, found.sizes, found.jumps, self._goal)
+        self._size = np.maximum(size, self._size)
         self.reason = self.limits.exceeded_by(self.cells, self._size)
 
 
-def solution_for(cells: Cells, size: Ints, goal: float) -> Refined:
-    """Solve with ``size`` functions for each cell."""
+def solution_for(cells: Cells, size: Ints, goal: float, before: Refined | None = None) -> Refined:
+    """Solve with ``size`` functions for each cell, no fewer than there were before."""
     nodes = InterfaceNodes.of(cells, node_counts(cells, size))
-    return refined(least_squares(trial_functions(nodes, size)), goal)
+    trial = trial_functions(nodes, size, None if before is None else before.problem.trial)
+    return refined(least_squares(trial), goal, before)
