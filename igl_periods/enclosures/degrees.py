@@ -22,7 +22,7 @@ _FEWEST = 4
 _FIRST_RADIAL = 2.2
 # Decimal digits for each unit of the radial degree: where nothing is known, at least, at most.
 _RATE, _SLOWEST, _FASTEST = 0.3, 0.04, 1.2
-_MARGIN = 0.3
+_MARGIN = 0.5
 # The radial degree at which a rate is to be believed by half.
 _SLOWER = 4.0
 # Logarithms of sizes that are about the same; and how much larger than its last coefficient a jump

@@ -32,9 +32,10 @@ from .trial_functions import TrialFunctions
 Acb = flint.acb
 
 # A step that reduces the residual by less has met what the trial functions can do; by less than
-# the second number it may have, and is believed to in the first step, and where the goal is near.
-_LEAST_GAIN, _LIMITED, _NEARLY = 1e-4, 1e-9, 0.8
-_CORRECTIONS = 1
+# the second number in the first step, by less than the third one where the goal is near.
+_LEAST_GAIN, _LIMITED_AT_FIRST, _LIMITED, _NEARLY = 1e-4, 1e-9, 1e-12, 0.8
+# Solutions are corrected, so often at most, as long as that helps by such a factor.
+_CORRECTIONS, _HELP = 3, 0.2
 # Digits by which a step reduces it otherwise, and those from which another solution is a start.
 _GAIN, _GOOD_START = 14.0, 10.0
 # Bits of residuals beyond those that a step gains.
@@ -132,7 +133,8 @@ def refined(problem: LeastSquares, goal: float, before: Refined | None = None) -
         level, gain = float(jumps.max()), float(left.max())
         # As long as double precision is what limits a step, the next one gains as much.  What it
         # leaves otherwise is what the trial functions cannot do.
-        done = gain > _LIMITED and (series is None or level < -_NEARLY * goal)
+        near = level < -_NEARLY * goal
+        done = gain > (_LIMITED_AT_FIRST if series is None else _LIMITED if near else np.inf)
         # What is no number ends it as well.
         if best is not None and not level < best.residual:
             return best
@@ -164,15 +166,26 @@ def _corrected_solution(
     Of the jumps the largest on each interface are given.
     """
     update = problem.solve(values, slopes)
+    left = _left(problem, update, values, slopes)
+    size = _largest(problem, left)
     for _ in range(_CORRECTIONS):
-        update = [
-            a + b for a, b in zip(update, problem.solve(*_left(problem, update, values, slopes)))
-        ]
+        corrected = [a + b for a, b in zip(update, problem.solve(*left))]
+        left = _left(problem, corrected, values, slopes)
+        smaller = _largest(problem, left)
+        before, after = size.max(), smaller.max()
+        if after < before:
+            update, size = corrected, smaller
+        if not after < _HELP * before:
+            break
+    return update, size
+
+
+def _largest(problem: LeastSquares, jumps: tuple[Floats, Complexes]) -> Floats:
     nodes = problem.trial.nodes
-    left = np.full(nodes.cells.n_interfaces, 1e-300)
-    for jumps in _left(problem, update, values, slopes):
-        np.maximum.at(left, nodes.side_of_row // 2, np.abs(jumps).max(axis=1))
-    return update, left
+    largest = np.full(nodes.cells.n_interfaces, 1e-300)
+    for part in jumps:
+        np.maximum.at(largest, nodes.side_of_row // 2, np.abs(part).max(axis=1))
+    return largest
 
 
 def _left(

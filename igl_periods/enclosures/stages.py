@@ -26,7 +26,7 @@ from .trial_functions import trial_functions
 STALLED = "more trial functions do not help"
 
 # Digits beyond those that are wanted which series are made for, and with which a proof is tried.
-_RESERVE, _LEAST_RESERVE = 0.3, -0.2
+_RESERVE, _LEAST_RESERVE = 0.3, -0.5
 # Of the digits that a stage was made for it gains as much at least, or is the last one.
 _LEAST_SHARE = 0.1
 
