@@ -101,7 +101,7 @@ def check_noise(name, degree, size, seed, energies):
 
 
 @pytest.mark.parametrize("energies", [in_floats, in_balls])
-@pytest.mark.parametrize("name", ["L(5/4)", "octagon", "torus"])
+@pytest.mark.parametrize("name", ["L(2)", "torus"])
 def test_noise_of_any_size_stays_enclosed(name, energies):
     for seed, size in enumerate(10.0 ** np.arange(-16.0, 4.0, 3.0)):
         proved = check_noise(name, 1 + 3 * seed % 16, size, seed, energies)
@@ -143,14 +143,14 @@ def believed(solution, size, rng):
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 @pytest.mark.parametrize("disturbed", [with_noise, believed])
 @pytest.mark.parametrize("digits", [8, 20])
-@pytest.mark.parametrize("size", [1e-12, 1e-3, 0.1, 10.0, 1e3, np.nan])
+@pytest.mark.parametrize("size", [1e-12, 1e-3, 0.1, 1e3, np.nan])
 def test_the_search_ends_whatever_the_solutions_are_worth(monkeypatch, disturbed, digits, size):
-    rng = np.random.default_rng(7)
+    expected, rng = truth("torus"), np.random.default_rng(7)
     solve, sizes = stages.solution_for, []
 
-    def bad(cells, size_of_cells, goal):
+    def bad(cells, size_of_cells, goal, before=None):
         sizes.append(size_of_cells.sum())
-        return disturbed(solve(cells, size_of_cells, goal), size, rng)
+        return disturbed(solve(cells, size_of_cells, goal, before), size, rng)
 
     monkeypatch.setattr(stages, "solution_for", bad)
     K = generic_torus()
@@ -160,6 +160,6 @@ def test_the_search_ends_whatever_the_solutions_are_worth(monkeypatch, disturbed
         with pytest.warns(ip.ToleranceWarning, match="digits are proved"):
             e = enclose(K, digits=digits)
     assert e.bound < 1
-    assert e.contains(truth("torus"))
+    assert e.contains(expected)
     assert len(sizes) <= 6
     assert sizes[-1] <= 20 * sizes[0]

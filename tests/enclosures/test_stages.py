@@ -27,9 +27,9 @@ def test_a_stage_that_gains_nothing_is_the_last_one(monkeypatch, cells):
     stages = Stages(cells, 40, Limits(None, None))
     solve, seen = ip.enclosures.stages.solution_for, []
 
-    def always_the_same(cells, size, goal):
+    def always_the_same(cells, size, goal, before=None):
         seen.append(goal)
-        return solve(cells, np.full(cells.n_cells, 6), goal)
+        return solve(cells, np.full(cells.n_cells, 6), goal, before)
 
     monkeypatch.setattr(ip.enclosures.stages, "solution_for", always_the_same)
     assert stages.solve() is not None
