@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from flint import acb, acb_mat, arb, fmpq
 from support.enclosed_surfaces import (
+    exact_matrix,
     generic_genus_two,
     l_shape,
     l_shape_matrix,
@@ -196,3 +197,33 @@ def test_where_series_prove_nothing_linear_forms_prove_something(monkeypatch):
     assert isinstance(e, PeriodEnclosure)
     assert e.bound < 1
     assert e.contains(exact.matrix)
+
+
+@pytest.mark.parametrize(
+    "digits", [30, *(pytest.param(n, marks=pytest.mark.slow) for n in (50, 100))]
+)
+def test_the_octagon_with_a_vertex_in_its_centre_is_bolzas_curve(digits):
+    e = enclose(polygons(8, 1, lambda p, i: (p, (i + 4) % 8)), digits=digits)
+    with flint.ctx.workprec(4 * digits + 200):
+        exact = exact_matrix("bolza")
+    assert e.digits >= digits
+    assert matches(e, exact)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("arm", [1 + 2.0**-5, 1 + 2.0**-8])
+def test_arms_that_almost_vanish(arm):
+    e = enclose(l_shape(arm), digits=30)
+    with flint.ctx.workprec(600):
+        exact = l_shape_matrix(arb(arm))
+    assert e.digits >= 30
+    assert matches(e, exact)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("height", [2.0**-8, 2.0**-10])
+def test_thinner_needles(height):
+    tau = 0.328125 + 1j * height
+    e = enclose(flat_torus(tau, 1, 1), digits=30)
+    assert e.digits >= 30
+    assert matches(e, acb_mat([[acb(tau)]]))
