@@ -33,6 +33,12 @@ from igl_periods.display import (
     readable_digits,
 )
 from igl_periods.periods import LEAST_ALLOWANCE, PeriodMatrix, combined, congruence
+from igl_periods.recognition import (
+    LARGEST_DEGREE,
+    LEAST_LEFT_OVER,
+    RecognisedMatrix,
+    recognise_matrix,
+)
 from igl_periods.siegel import SIEGEL_GENUS_LIMIT, check_symplectic, siegel_reduce
 from igl_periods.symplectic import form_action, product
 
@@ -176,6 +182,16 @@ class PeriodEnclosure:
         """
         Pi = other.matrix if isinstance(other, PeriodEnclosure) else other
         return bool(self.matrix.overlaps(_as_balls(Pi, self.genus)))
+
+    def recognize(
+        self, *, degree: int = LARGEST_DEGREE, left_over: float = LEAST_LEFT_OVER
+    ) -> RecognisedMatrix:
+        """Recognise the entries as algebraic numbers; they are simplest in a reduced marking.
+
+        See :func:`~igl_periods.recognize`.  What is recognised is not proved.
+        """
+        with flint.ctx.workprec(self.bits):
+            return recognise_matrix(self.matrix, degree=degree, left_over=left_over)
 
     def to_period_matrix(self) -> PeriodMatrix:
         """The same in floating point, with the allowance for rounding that this costs."""
