@@ -33,7 +33,7 @@ Acb = flint.acb
 
 # A step that reduces the residual by less has met what the trial functions can do; by less than
 # the second number in the first step, by less than the third one where the goal is near.
-_LEAST_GAIN, _LIMITED_AT_FIRST, _LIMITED, _NEARLY = 1e-4, 1e-9, 1e-12, 0.8
+_LEAST_GAIN, _LIMITED_AT_FIRST, _LIMITED, _NEARLY = 1e-2, 1e-9, 1e-12, 0.8
 # Solutions are corrected, so often at most, as long as that helps by such a factor.
 _CORRECTIONS, _HELP = 3, 0.2
 # Digits by which a step reduces it otherwise, and those from which another solution is a start.
