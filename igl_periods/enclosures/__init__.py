@@ -24,6 +24,8 @@ converge geometrically, so that 100 digits take a degree of 200 and not a finer 
 ``float_energies``     the same for a few digits, on arrays (``float_traces``)
 ``upper_energies``     bounds of energies in other bases; what linear forms prove
 ``siegel_point``       from the energies to the period matrix
+``limits``             seconds and bytes that it may take
+``stages``             solutions with more and more functions
 ``computation``        the steps, one after the other
 ``enclosure``          the result
 =====================  ===========================================================================
