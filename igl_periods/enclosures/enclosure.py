@@ -32,7 +32,7 @@ from igl_periods.display import (
     lines_html,
     readable_digits,
 )
-from igl_periods.periods import LEAST_ALLOWANCE, PeriodMatrix, combined, congruence
+from igl_periods.periods import Gradient, PeriodMatrix
 from igl_periods.siegel import SIEGEL_GENUS_LIMIT, check_symplectic, siegel_reduce
 from igl_periods.symplectic import form_action, product
 
@@ -42,12 +42,15 @@ from .exact_arithmetic import (
     from_integers,
     to_integers,
 )
+from .float_matrix import in_floating_point
 from .siegel_point import SiegelBall, siegel_ball
 
 SCHEMA = 1
 
 _DIGITS_PER_BIT = 0.30102999566
 _MOST_REDUCTIONS = 8
+# Of forms for derivatives.
+_DEGREE = 8
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -177,18 +180,60 @@ class PeriodEnclosure:
         Pi = other.matrix if isinstance(other, PeriodEnclosure) else other
         return bool(self.matrix.overlaps(_as_balls(Pi, self.genus)))
 
-    def to_period_matrix(self) -> PeriodMatrix:
-        """The same in floating point, with the allowance for rounding that this costs."""
-        n = 2 * self.genus
-        D = np.array([float(x.mid()) for x in self.dirichlet.entries()]).reshape(n, n)
-        D, loss = congruence(np.eye(n, dtype=np.int8), D)
-        return PeriodMatrix(
-            dirichlet=D,
-            certified=True,
-            cocycles=self.cocycles.copy(),
-            complex=self.complex,
-            rounding=combined(LEAST_ALLOWANCE, loss + _relative_radius(self.dirichlet, D)),
-        )
+    def to_period_matrix(self, *, degree: int | None = None) -> PeriodMatrix:
+        """The same in floating point, with the allowance for rounding that this costs.
+
+        Parameters
+        ----------
+        degree : int, optional
+            Keep forms of this degree, so that the result has derivatives
+            (:meth:`PeriodMatrix.derivative`, ``gradient`` and ``covariance``): those of the exact
+            matrix by Rauch's formula.  Nothing is proved of them.  They are off by some multiples
+            of the bound that ``period_matrix(complex, degree=degree)`` has, 1 to 60 of them as
+            measured, so exponentially little in the degree, until rounding is reached.
+
+        Raises
+        ------
+        ValueError
+            If the degree is no whole number from 1 to 1000.
+        """
+        return in_floating_point(self.dirichlet, self.cocycles, self.complex, degree)
+
+    def derivative(
+        self,
+        *,
+        lengths: ArrayLike | None = None,
+        vertices: ArrayLike | None = None,
+        degree: int = _DEGREE,
+    ) -> NDArray[np.complex128]:
+        """How Π moves as lengths or vertices do, in floating point; (…, g, g) complex.
+
+        For many derivatives make ``to_period_matrix(degree=8)`` once: each call computes the forms.
+
+        Parameters
+        ----------
+        lengths, vertices : array-like
+            As for :meth:`PeriodMatrix.derivative`.
+        degree : int
+            Of the forms; :meth:`to_period_matrix` says how far the derivative is off.
+
+        Raises
+        ------
+        ValueError, ComplexError
+            As :meth:`PeriodMatrix.derivative` and :meth:`to_period_matrix`.
+        """
+        pm = self.to_period_matrix(degree=degree)
+        return pm.derivative(lengths=lengths, vertices=vertices)
+
+    def gradient(self, W: ArrayLike, *, degree: int = _DEGREE) -> Gradient:
+        """The gradient of Re Σ W̄ Π, in floating point; :meth:`derivative`, transposed.
+
+        Raises
+        ------
+        ValueError, ComplexError
+            As :meth:`PeriodMatrix.gradient` and :meth:`to_period_matrix`.
+        """
+        return self.to_period_matrix(degree=degree).gradient(W)
 
     def to_json(self) -> dict[str, Any]:
         """A document of decimal strings, each of which is a proved enclosure.
@@ -316,14 +361,6 @@ def _as_balls(Pi: ArrayLike | flint.acb_mat, g: int) -> flint.acb_mat:
     if shape != (g, g):
         raise ValueError(f"a period matrix of genus {g} has shape {(g, g)}, not {shape}.")
     return balls
-
-
-def _relative_radius(D: flint.arb_mat, midpoint: NDArray[np.float64]) -> float:
-    """How much of D, relative to it, its radii may be."""
-    if len(midpoint) == 0:
-        return 0.0
-    radius = max(float(x.rad()) for x in D.entries())
-    return float(len(midpoint) * radius / np.linalg.eigvalsh(midpoint)[0])
 
 
 def _texts(A: flint.arb_mat, digits: int) -> list[list[str]]:
