@@ -20,7 +20,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from igl_periods.arrays import Floats, Ints
+from igl_periods.arrays import Bools, Floats, Ints
 
 from .crossings import near_pairs
 
@@ -41,9 +41,9 @@ def contact_energy(V: Floats, F: Ints, reach: float) -> tuple[float, Floats]:
     for i, j in near_pairs(V, F, reach):
         distance, b, c = triangle_distances(V[F[i]], V[F[j]])
         near = distance < reach
-        i, j, distance, b, c = (array[near] for array in (i, j, distance, b, c))
-        ends = np.concatenate([F[i], F[j]], axis=1)
-        weights = np.concatenate([b, -c], axis=1)
+        distance = distance[near]
+        ends = np.concatenate([F[i], F[j]], axis=1)[near]
+        weights = np.concatenate([b, -c], axis=1)[near]
         between = np.einsum("kc,kci->ki", weights, V[ends])
         logarithm = np.log(distance / reach)
         energy += float(logarithm @ logarithm)
@@ -66,27 +66,26 @@ def triangle_distances(one: Floats, other: Floats) -> tuple[Floats, Floats, Floa
     k = len(one)
     found = [np.full(k, np.inf), np.zeros((k, 3)), np.zeros((k, 3))]
 
-    def take(b: Floats, c: Floats, valid: Floats) -> None:
+    def take(b: Floats, c: Floats, valid: Bools) -> None:
         between = np.einsum("kc,kci->ki", b, one) - np.einsum("kc,kci->ki", c, other)
         distance = np.where(valid, np.linalg.norm(between, axis=1), np.inf)
         nearer = distance < found[0]
         for best, candidate in zip(found, (distance, b, c)):
             best[nearer] = candidate[nearer]
 
-    everywhere = np.ones(k, dtype=bool)
     for s in range(3):
         corner = np.broadcast_to(np.eye(3)[s], (k, 3))
         for weights, valid in _nearest_in(other, one[:, s]):
-            take(corner, weights, everywhere & valid)
+            take(corner, weights, valid)
         for weights, valid in _nearest_in(one, other[:, s]):
-            take(weights, corner, everywhere & valid)
+            take(weights, corner, valid)
         for side in _SIDES:
             b, c, valid = _facing(one, _SIDES[s], other, side)
             take(b, c, valid)
     return found[0], found[1], found[2]
 
 
-def _nearest_in(triangle: Floats, point: Floats) -> list[tuple[Floats, Floats]]:
+def _nearest_in(triangle: Floats, point: Floats) -> list[tuple[Floats, Bools]]:
     """Candidates for the nearest points: the foot of the height, where inside, and on the sides."""
     a, b, c = triangle.transpose(1, 0, 2)
     normal = np.cross(b - a, c - a)
@@ -94,7 +93,7 @@ def _nearest_in(triangle: Floats, point: Floats) -> list[tuple[Floats, Floats]]:
     first = np.einsum("ki,ki->k", np.cross(b - point, c - point), normal) / square
     second = np.einsum("ki,ki->k", np.cross(c - point, a - point), normal) / square
     foot = np.stack([first, second, 1.0 - first - second], axis=1)
-    candidates = [(foot, (foot >= 0.0).all(axis=1))]
+    candidates: list[tuple[Floats, Bools]] = [(foot, np.asarray((foot >= 0.0).all(axis=1)))]
     for i, j in _SIDES:
         u = triangle[:, j] - triangle[:, i]
         along = np.einsum("ki,ki->k", point - triangle[:, i], u) / np.einsum("ki,ki->k", u, u)
@@ -105,7 +104,7 @@ def _nearest_in(triangle: Floats, point: Floats) -> list[tuple[Floats, Floats]]:
 
 def _facing(
     one: Floats, side: tuple[int, int], other: Floats, other_side: tuple[int, int]
-) -> tuple[Floats, Floats, Floats]:
+) -> tuple[Floats, Floats, Bools]:
     """The closest points of two lines, and whether they are within the sides."""
     u, v = one[:, side[1]] - one[:, side[0]], other[:, other_side[1]] - other[:, other_side[0]]
     w = one[:, side[0]] - other[:, other_side[0]]
