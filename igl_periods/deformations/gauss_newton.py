@@ -54,6 +54,8 @@ _LEAST_GAIN, _IDLE_STEPS = 0.002, 8
 # Steps of descent after each step, unless the target is so near; and how often no step may be
 # found before that is the end.
 _DESCENTS, _NEAR, _MOST_FAILURES = 3, 0.05, 8
+# By how much a step may raise the energy of a surface that repels itself.
+_LARGEST_RISE = 0.5
 
 Computation = Callable[[DeltaComplex], PeriodMatrix]
 
@@ -140,8 +142,10 @@ class GaussNewton:
         solution = _DampedSolution.of(J @ raised.T, r, moduli(pm.genus))
         slack = slacks(K.lengths)
         strain = _LARGEST_STRAIN if self.relaxation is None else 0.5 * _LARGEST_STRAIN
+        ceiling = self._energy(K) + _LARGEST_RISE
         for _ in range(_MOST_HALVINGS):
-            tried = [self._tried(x, dx, slack) for dx in self._steps(K, raised, solution, strain)]
+            steps = self._steps(K, raised, solution, strain)
+            tried = [self._tried(x, dx, slack, ceiling) for dx in steps]
             best = min(tried, key=lambda one: one[2])
             if best[1] is not None and best[2] < distance:
                 return best[0], best[1], best[2]
@@ -164,13 +168,18 @@ class GaussNewton:
         damped = np.asarray(solution.at(high) @ raised)
         return [newton / too_much, damped / max(1.0, self.chart.strain(K, damped) / strain)]
 
+    def _energy(self, K: DeltaComplex) -> float:
+        """What the surface is to be kept from, 0 where it does not repel itself."""
+        return 0.0 if self.relaxation is None else self.relaxation.chart.energy(K)[0]
+
     def _tried(
-        self, x: Floats, dx: Floats, slack: Floats
+        self, x: Floats, dx: Floats, slack: Floats, ceiling: float
     ) -> tuple[Floats, PeriodMatrix | None, float]:
         """A step, with the matrix and the distance after it; None and ∞ where it cannot be made."""
         try:
             there = self.chart.surface(x + dx)
-            if (slacks(there.lengths) >= _SLACK_KEPT * slack).all():
+            kept = bool((slacks(there.lengths) >= _SLACK_KEPT * slack).all())
+            if kept and self._energy(there) <= ceiling:
                 pm = self.compute(there)
                 return dx, pm, siegel_distance(pm.matrix, self.target)
         except ComplexError as error:

@@ -82,6 +82,20 @@ def test_genus_three_gets_hyperelliptic(mesh):
     assert ip.is_hyperelliptic(found.period_matrix.matrix)
 
 
+def test_a_surface_far_from_hyperelliptic_gets_so(mesh):
+    """56 vertices with the symmetry of the tetrahedron, at a distance of a half."""
+    K = DeltaComplex.from_mesh(*mesh("kq_surface.obj"))
+    pm = ip.period_matrix(K)
+    target = ip.hyperelliptic_point(pm)
+    assert ip.siegel_distance(pm, target) > 0.5 and not ip.is_hyperelliptic(pm.matrix)
+    for found in (
+        ip.deform_to(K, None, target, keep_marking=True, tolerance=1e-9),
+        ip.lengths_with(K, target, keep_marking=True, tolerance=1e-9),
+    ):
+        assert found.reached and found.distance < 1e-8
+        assert ip.is_hyperelliptic(found.period_matrix.matrix)
+
+
 def test_displacements_within_a_basis(mesh):
     V, F = mesh("eight.off")
     basis = smooth_functions(V, F, count=60)
