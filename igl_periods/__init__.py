@@ -20,6 +20,7 @@ page.  In reading order:
 ``periods``        D → Π and its bound
 ``enclosures``     Π in balls, to as many digits as are asked for
 ``symplectic``     J, integer bases, the Williamson form: what D and Π have in common
+``recognition``    numbers in balls → algebraic numbers, with the evidence
 ``siegel``         Π → γ·Π reduced
 ``moduli``         Π₁, Π₂ → equivalence, symmetries, invariants
 ``forms``          the discrete theory of the paper on Λ = Γ ⊕ Γ*
@@ -51,6 +52,12 @@ from .errors import (
 )
 from .meshes import MeshReport, load_mesh, sample_files, split_components
 from .complexes import DeltaComplex, double, intrinsic_delaunay
+from .recognition import (
+    AlgebraicNumber,
+    NumberField,
+    RecognisedMatrix,
+    recognize,
+)
 from .topology import (
     cohomology_basis,
     dual_homology_basis,
@@ -194,6 +201,10 @@ __all__ = [
     "theta_derivatives",
     "hyperelliptic_point",
     "is_hyperelliptic",
+    "recognize",
+    "AlgebraicNumber",
+    "RecognisedMatrix",
+    "NumberField",
     "recognise_quadratic",
     "recognise_entries",
     "identify",

@@ -32,7 +32,12 @@ from igl_periods.display import (
     lines_html,
     readable_digits,
 )
-from igl_periods.periods import Gradient, PeriodMatrix
+from igl_periods.recognition import (
+    LARGEST_DEGREE,
+    LEAST_LEFT_OVER,
+    RecognisedMatrix,
+    recognise_matrix,
+)
 from igl_periods.siegel import SIEGEL_GENUS_LIMIT, check_symplectic, siegel_reduce
 from igl_periods.symplectic import form_action, product
 
@@ -42,19 +47,17 @@ from .exact_arithmetic import (
     from_integers,
     to_integers,
 )
-from .float_matrix import in_floating_point
+from .float_matrix import InFloatingPoint
 from .siegel_point import SiegelBall, siegel_ball
 
 SCHEMA = 1
 
 _DIGITS_PER_BIT = 0.30102999566
 _MOST_REDUCTIONS = 8
-# Of forms for derivatives.
-_DEGREE = 8
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class PeriodEnclosure:
+class PeriodEnclosure(InFloatingPoint):
     """A period matrix in balls, with its marking.
 
     Attributes
@@ -180,60 +183,15 @@ class PeriodEnclosure:
         Pi = other.matrix if isinstance(other, PeriodEnclosure) else other
         return bool(self.matrix.overlaps(_as_balls(Pi, self.genus)))
 
-    def to_period_matrix(self, *, degree: int | None = None) -> PeriodMatrix:
-        """The same in floating point, with the allowance for rounding that this costs.
+    def recognize(
+        self, *, degree: int = LARGEST_DEGREE, left_over: float = LEAST_LEFT_OVER
+    ) -> RecognisedMatrix:
+        """Recognise the entries as algebraic numbers; they are simplest in a reduced marking.
 
-        Parameters
-        ----------
-        degree : int, optional
-            Keep forms of this degree, so that the result has derivatives
-            (:meth:`PeriodMatrix.derivative`, ``gradient`` and ``covariance``): those of the exact
-            matrix by Rauch's formula.  Nothing is proved of them.  They are off by some multiples
-            of the bound that ``period_matrix(complex, degree=degree)`` has, 1 to 60 of them as
-            measured, so exponentially little in the degree, until rounding is reached.
-
-        Raises
-        ------
-        ValueError
-            If the degree is no whole number from 1 to 1000.
+        See :func:`~igl_periods.recognize`.  What is recognised is not proved.
         """
-        return in_floating_point(self.dirichlet, self.cocycles, self.complex, degree)
-
-    def derivative(
-        self,
-        *,
-        lengths: ArrayLike | None = None,
-        vertices: ArrayLike | None = None,
-        degree: int = _DEGREE,
-    ) -> NDArray[np.complex128]:
-        """How Π moves as lengths or vertices do, in floating point; (…, g, g) complex.
-
-        For many derivatives make ``to_period_matrix(degree=8)`` once: each call computes the forms.
-
-        Parameters
-        ----------
-        lengths, vertices : array-like
-            As for :meth:`PeriodMatrix.derivative`.
-        degree : int
-            Of the forms; :meth:`to_period_matrix` says how far the derivative is off.
-
-        Raises
-        ------
-        ValueError, ComplexError
-            As :meth:`PeriodMatrix.derivative` and :meth:`to_period_matrix`.
-        """
-        pm = self.to_period_matrix(degree=degree)
-        return pm.derivative(lengths=lengths, vertices=vertices)
-
-    def gradient(self, W: ArrayLike, *, degree: int = _DEGREE) -> Gradient:
-        """The gradient of Re Σ W̄ Π, in floating point; :meth:`derivative`, transposed.
-
-        Raises
-        ------
-        ValueError, ComplexError
-            As :meth:`PeriodMatrix.gradient` and :meth:`to_period_matrix`.
-        """
-        return self.to_period_matrix(degree=degree).gradient(W)
+        with flint.ctx.workprec(self.bits):
+            return recognise_matrix(self.matrix, degree=degree, left_over=left_over)
 
     def to_json(self) -> dict[str, Any]:
         """A document of decimal strings, each of which is a proved enclosure.

@@ -26,11 +26,14 @@ import flint
 import numpy as np
 from numpy.typing import ArrayLike
 
+from igl_periods.recognition import reduced_relations, square_part
 from igl_periods.siegel import check_siegel_point
 
 # An expected number of coincidences above this is no evidence.
 _LARGEST_COINCIDENCE = 1e-3
 _ARRAY_ERROR = 1e-12
+# Powers of doubles are exact, or nearly so, with this precision.
+_BITS = 256
 
 
 @dataclass(frozen=True)
@@ -154,14 +157,9 @@ def _guess(y: float, error: float, degree: int) -> QuadraticGuess | None:
 
 def _relation(y: float, error: float, degree: int) -> list[int]:
     """Integers (c_0, …, c_n), not all 0, with Σ c_k y^k small: the shortest vector LLL finds."""
-    scale = 1 / Fraction(error)
-    powers = [Fraction(y) ** k for k in range(degree + 1)]
-    rows = [
-        [int(i == k) for i in range(degree + 1)] + [round(scale * power)]
-        for k, power in enumerate(powers)
-    ]
-    reduced = flint.fmpz_mat(rows).lll().tolist()
-    return [int(n) for n in reduced[0][: degree + 1]]
+    bits = max(0, round(-math.log2(error)))
+    with flint.ctx.workprec(_BITS):
+        return reduced_relations([[flint.arb(y) ** k] for k in range(degree + 1)], bits)[0]
 
 
 def _nearest_root(coefficients: list[int], y: float) -> tuple[Fraction, Fraction, int] | None:
@@ -172,19 +170,10 @@ def _nearest_root(coefficients: list[int], y: float) -> tuple[Fraction, Fraction
     discriminant = b * b - 4 * a * c
     if discriminant < 0:
         return None
-    square, radicand = _square_part(discriminant)
+    square, radicand = square_part(discriminant)
     middle, half = Fraction(-b, 2 * a), Fraction(square, 2 * a)
     if radicand in (0, 1):
         roots = [(middle + sign * half * radicand, Fraction(0), 0) for sign in (1, -1)]
     else:
         roots = [(middle, sign * half, radicand) for sign in (1, -1)]
     return min(roots, key=lambda r: abs(float(r[0]) + float(r[1]) * math.sqrt(r[2]) - y))
-
-
-def _square_part(n: int) -> tuple[int, int]:
-    """Write n = s² r with r square-free (0 = 0² · 0)."""
-    s, r = 1, 1
-    for prime, exponent in flint.fmpz(n).factor() if n else []:
-        s *= int(prime) ** (exponent // 2)
-        r *= int(prime) ** (exponent % 2)
-    return (s, r) if n else (0, 0)

@@ -112,3 +112,11 @@ def test_genus_zero():
     assert e.bound == 0
     assert PeriodEnclosure.from_json(json.dumps(e.to_json())).genus == 0
     assert pickle.loads(pickle.dumps(e)).genus == 0
+
+
+def test_entries_are_recognised():
+    """The L-shaped origami: Π = i/3 [[5, −4], [−4, 5]] up to Sp(4, Z)."""
+    found = enclose(ip.surfaces.square_tiled_surface("omega_1"), digits=20).reduced().recognize()
+    assert found.complete
+    assert str(found.field) == "Q(i)"
+    assert found.left_over > 12
