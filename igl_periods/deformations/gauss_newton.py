@@ -49,8 +49,9 @@ _MOST_HALVINGS = 12
 _DAMPING_RATIO = 1.3
 # Squares of singular values of J below this part of the largest are rounding.
 _RANK = 1e-13
-# Steps in a row that gain less than this part of the distance end the iteration.
-_LEAST_GAIN, _IDLE_STEPS = 0.002, 8
+# Steps in a row that gain less than this part of the distance end the iteration; the second part
+# is for surfaces that repel themselves, whose steps take long.
+_LEAST_GAIN, _LEAST_GAIN_REPELLING, _IDLE_STEPS = 0.002, 0.02, 8
 # Steps of descent after each step, unless the target is so near; and how often no step may be
 # found before that is the end.
 _DESCENTS, _NEAR, _MOST_FAILURES = 3, 0.05, 8
@@ -104,6 +105,7 @@ class GaussNewton:
         distance = siegel_distance(pm.matrix, self.target)
         steps: list[Step] = []
         idle, failures, verdict = 0, 0, ""
+        least_gain = _LEAST_GAIN if self.relaxation is None else _LEAST_GAIN_REPELLING
         while distance > tolerance and not verdict:
             if len(steps) == max_steps:
                 verdict = f"stopped after {max_steps} steps at a distance of {distance:.3g}"
@@ -125,7 +127,7 @@ class GaussNewton:
                     x, pm = self.relaxation.descend(x, pm, _DESCENTS)
                     after = siegel_distance(pm.matrix, self.target)
             steps.append(Step(after, strain))
-            idle = idle + 1 if after > (1.0 - _LEAST_GAIN) * distance else 0
+            idle = idle + 1 if after > (1.0 - least_gain) * distance else 0
             distance = after
             if idle == _IDLE_STEPS:
                 verdict = _no_way(distance, pm.genus)

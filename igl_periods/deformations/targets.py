@@ -30,6 +30,8 @@ _MOST_STEPS = 200
 _SMOOTHING = 1.0
 # Linear functions lead to within this distance, before functions of high degree go on.
 _COARSE = 1e-6
+# Surfaces of more faces do not repel themselves: it takes the square of their number.
+_MOST_REPELLING = 6_000
 
 
 def deform_to(
@@ -62,8 +64,8 @@ def deform_to(
         nearest, and big ones make ripples.
     embedded : bool
         Make no step after which the surface passes through itself.  Where that does not lead to the
-        target, the way is gone again with a surface that repels itself, in a time that grows with
-        the square of the number of faces: a second per step at 1,500 of them.
+        target, the way is gone again with a surface that repels itself, if it has no more than
+        6,000 faces.  That takes minutes, and comes nearer without always arriving.
     degree : int
         Of the trial functions.  From degree 2 on the exact matrix of the polyhedral surface comes
         as near to the target as ``certified_distance`` says.
@@ -177,7 +179,7 @@ def _deformed(
     if not checked_switch("keep_marking", keep_marking):
         point, gamma = _nearest(point, start)
     charts = [chart]
-    if isinstance(chart, VertexChart) and chart.embedded:
+    if isinstance(chart, VertexChart) and chart.embedded and K.n_faces <= _MOST_REPELLING:
         charts.append(chart.repelling())
     ends = []
     for one in charts:

@@ -50,14 +50,17 @@ def test_the_exact_matrix_of_the_polyhedral_surface(mesh):
 
 @pytest.mark.slow
 def test_eight_gets_the_matrix_of_the_octagon(mesh):
-    """The surface passes through itself on the way: nothing keeps its parts apart."""
+    """The surface passes through itself on the way, unless it is kept from it.
+
+    Then it gets stuck at 0.83, and where it repels itself, at about 0.2.
+    """
     V, F = mesh("eight.off")
     found = ip.deform_to(V, F, OCTAGON)
     assert found.reached and passes_through_itself(found.vertices, F)
     with pytest.warns(ip.DeformationWarning, match="no step comes nearer"):
         held = ip.deform_to(V, F, OCTAGON, embedded=True)
     assert not passes_through_itself(held.vertices, F)
-    assert held.distance < ip.siegel_distance(ip.period_matrix(V, F), held.target)
+    assert held.distance < 0.3
     assert len(ip.symplectic_automorphism_group(found.period_matrix.matrix, 1e-8)) == 48
 
 
