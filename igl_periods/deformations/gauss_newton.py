@@ -54,7 +54,7 @@ _RANK = 1e-13
 _LEAST_GAIN, _LEAST_GAIN_REPELLING, _IDLE_STEPS = 0.002, 0.02, 8
 # Steps of descent after each step, unless the target is so near; and how often no step may be
 # found before that is the end.
-_DESCENTS, _NEAR, _MOST_FAILURES = 3, 0.05, 8
+_DESCENTS, _NEAR, _MOST_FAILURES = 3, 0.005, 8
 # By how much a step may raise the energy of a surface that repels itself.
 _LARGEST_RISE = 0.5
 
