@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import zip_longest
+from itertools import chain, zip_longest
 
 import flint
 import numpy as np
@@ -26,7 +26,7 @@ from .exact_arithmetic import exponent_of
 from .interface_nodes import InterfaceNodes, gauss_nodes
 from .least_squares import LeastSquares
 from .limits import check_time
-from .series import PowerTables, Series, excess_bits, face_trace, star_traces
+from .series import PowerTables, Series, face_trace, largest_exponent, star_traces
 from .trial_functions import TrialFunctions
 
 Acb = flint.acb
@@ -282,7 +282,7 @@ class Expansion:
             check_time()
             forms = [self._expanded(cell, column) for column in a.T.tolist()]
             # Coefficients may be large and cancel each other; errors are to be small as they are.
-            with flint.ctx.workprec(self.bits + max(0, exponent + excess_bits(forms))):
+            with flint.ctx.workprec(self.bits + max(0, exponent + largest_exponent(chain(*forms)))):
                 if series is None:
                     found.append([[(c * scale).mid() for c in form] for form in forms])
                     continue
