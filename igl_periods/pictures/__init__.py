@@ -7,10 +7,14 @@ and is not imported before.  That happens in a process of its own, which may abo
 =====================  ========================================================================
 ``scenes``             cycles, checkerboard, density, quality, cut
 ``derivative_scenes``  sensitivity, quadratic differentials
+``sheets``             where a surface is drawn: in space or in the plane
+``all_scenes``         everything that there is to see of a surface
 ``tubes``              closed walks as smooth tubes
 ``rendering``          scenes to pixels, in a process with a time limit
 ``drawing``            what that process does, with Open3D
 ``drivers``            what Open3D needs of the system
+``viewer``             scenes as a page with a surface to turn
+``viewer_objects``     what that page draws, with K3D
 ``textured_meshes``    OBJ with MTL and PNG, and GLB
 ``polygon_drawing``    flat surfaces as polygons in the plane, SVG
 =====================  ========================================================================
@@ -24,10 +28,12 @@ from .scenes import (
     density_scene,
     plain_scene,
     quality_scene,
-    surface_in_space,
 )
+from .sheets import surface_in_space
 from .derivative_scenes import quadratic_scene, sensitivity_scene
+from .all_scenes import CYCLES, scenes_of_complex, scenes_of_matrix
 from .rendering import check_display, render, save, show, with_legend
+from .viewer import Viewer, interactive, viewer_of_scenes
 from .polygon_drawing import render_polygons
 from .textured_meshes import write_glb, write_obj
 
@@ -41,11 +47,17 @@ __all__ = [
     "quadratic_scene",
     "sensitivity_scene",
     "Scene",
+    "scenes_of_matrix",
+    "scenes_of_complex",
+    "CYCLES",
     "surface_in_space",
     "check_display",
     "render",
     "save",
     "show",
+    "interactive",
+    "viewer_of_scenes",
+    "Viewer",
     "render_polygons",
     "with_legend",
     "write_glb",

@@ -17,7 +17,8 @@ from igl_periods.harmonic import face_areas, linear_parts, spread_to_vertices
 from igl_periods.periods import PeriodMatrix
 from igl_periods.siegel import orthonormal_weights
 
-from .scenes import Scene, Sheet, Tube, coloured, scale_legend
+from .scenes import Scene, Tube, coloured, scale_legend
+from .sheets import Sheet, surface_in_space
 from .tubes import diagonal
 
 _STROKE = (0.80, 0.12, 0.10)
@@ -36,6 +37,7 @@ def sensitivity_scene(pm: PeriodMatrix) -> Scene:
         If the surface has no positions in space.
     """
     K = pm.complex
+    surface_in_space(K)
     sheet = Sheet.of(K)
     by_vertex = pm.gradient(orthonormal_weights(pm.matrix)).vertices
     assert by_vertex is not None
@@ -47,7 +49,7 @@ def sensitivity_scene(pm: PeriodMatrix) -> Scene:
     return Scene(
         sheet.V,
         sheet.F,
-        colours,
+        colours[sheet.vertex],
         legend=scale_legend(10.0**low, 10.0**high),
         caption=(
             "How much the period matrix moves, in Siegel's metric, per displacement and area, from "
@@ -84,7 +86,7 @@ def quadratic_scene(pm: PeriodMatrix, first: int, second: int) -> Scene:
     return Scene(
         sheet.V,
         sheet.F,
-        colours,
+        colours[sheet.vertex],
         tubes=_strokes(sheet, K, product),
         legend=scale_legend(10.0**low, 10.0**high),
         caption=(

@@ -71,7 +71,7 @@ def render(
         raise ValueError(
             f"a picture of {width} x {height} pixels: both must be between 1 and {_LARGEST}."
         )
-    eye, up = _camera(scene.V, direction)
+    eye, up = seen_from(scene.V, direction)
     seconds = _START + _PIXEL * width * height + _TRIANGLE * len(scene.F)
     with stage("drawing"), tempfile.TemporaryDirectory(prefix="igl-periods-") as folder:
         _run_open3d(Path(folder), ("draw", scene, size, eye, up), seconds)
@@ -166,8 +166,13 @@ def _last_words(ended: subprocess.CompletedProcess[bytes]) -> str:
     return f"Open3D was ended while drawing, {how}. The last that it said: {words[0]}"
 
 
-def _camera(V: Floats, direction: ArrayLike | None) -> tuple[Floats, Floats]:
-    """Unit vectors from the surface to the eye, and upwards in the picture."""
+def seen_from(V: Floats, direction: ArrayLike | None = None) -> tuple[Floats, Floats]:
+    """Unit vectors from the surface to the eye, and upwards in the picture.
+
+    Without a direction a surface is seen from its flattest side, one in the plane from above.
+    """
+    if direction is None and not np.ptp(V[:, 2]):
+        return np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0])
     axes = np.linalg.svd(V - V.mean(axis=0), full_matrices=False)[2]
     largest = np.take_along_axis(axes, np.abs(axes).argmax(axis=1)[:, None], axis=1)
     longest, middle, least = axes * np.sign(largest)

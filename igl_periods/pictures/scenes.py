@@ -8,6 +8,9 @@ A scene is made of arrays alone; :mod:`~igl_periods.pictures.rendering` draws it
 * the length |ζ| of a form, on a logarithmic scale;
 * where the bound of the period matrix originates;
 * the cut that makes the surface a disk.
+
+They show the surface where :meth:`~igl_periods.pictures.sheets.Sheet.of` finds it, or on another
+sheet.
 """
 
 from __future__ import annotations
@@ -19,15 +22,14 @@ import igl
 import numpy as np
 
 from igl_periods.arrays import Bytes, Floats, Ints
-from igl_periods.complexes import DeltaComplex, half_edge_ends, involution
+from igl_periods.complexes import DeltaComplex
 from igl_periods.differentials import Parametrization
 from igl_periods.display import arrays_repr
-from igl_periods.errors import ComplexError
 from igl_periods.harmonic import face_areas, spread_to_vertices
 from igl_periods.periods import MeshQuality, PeriodMatrix
 from igl_periods.topology import canonical_cycles
 
-from .tubes import smooth_closed_curves
+from .sheets import Sheet
 
 _PALE, _DARK = (0.93, 0.92, 0.90), (0.16, 0.30, 0.52)
 _CUT, _ZERO, _FOLD = (0.80, 0.12, 0.10), (0.95, 0.75, 0.05), (0.80, 0.12, 0.10)
@@ -90,32 +92,34 @@ def cycle_colour(k: int, n: int) -> tuple[float, float, float]:
     return colorsys.hsv_to_rgb(k / n, 0.90, 0.85)
 
 
-def cycles_scene(pm: PeriodMatrix) -> Scene:
+def cycles_scene(pm: PeriodMatrix, sheet: Sheet | None = None) -> Scene:
     """The canonical cycles of the marking of a period matrix, shortened and smoothed.
 
     Raises
     ------
     ComplexError
-        If the surface has no positions in space.
+        If the surface has no positions in space, and no sheet is given.
     """
     K, g = pm.complex, pm.genus
-    sheet = Sheet.of(K)
-    V, F = sheet.V, sheet.F
-    tail, _ = half_edge_ends(K)
+    sheet = sheet or Sheet.of(K)
     walks = canonical_cycles(pm.complex, pm.cocycles)
     handles = _shortest_handles(K, walks)
     shown = [k for i in handles for k in (i, i + g)]
-    smooth = smooth_closed_curves(V, F, [V[tail[walks[k]]] for k in shown])
+    curves = sheet.closed_curves([walks[k] for k in shown])
     colours = [cycle_colour(k, len(shown)) for k in range(len(shown))]
     names = [f"{'ab'[k // g]}{k % g + 1}" for k in shown]
     which = (
         "canonical cycles" if len(handles) == g else f"canonical cycles, the shortest of {2 * g}"
     )
     return Scene(
-        V,
-        F,
-        _uniform(V),
-        tubes=tuple(Tube(*curve, colour) for curve, colour in zip(smooth, colours, strict=True)),
+        sheet.V,
+        sheet.F,
+        _uniform(sheet.V),
+        tubes=tuple(
+            Tube(*piece, colour, closed=not sheet.unfolded)
+            for pieces, colour in zip(curves, colours, strict=True)
+            for piece in pieces
+        ),
         legend=tuple(zip(names, colours, strict=True)),
         caption=f"{len(shown)} {which}; a_i meets b_i once, and no other, counted with signs.",
     )
@@ -128,11 +132,12 @@ def _shortest_handles(K: DeltaComplex, walks: list[Ints]) -> Ints:
     return np.sort(np.argsort(lengths[:g] + lengths[g:], kind="stable")[:_MOST_HANDLES])
 
 
-def checkerboard_scene(P: Parametrization) -> Scene:
+def checkerboard_scene(P: Parametrization, sheet: Sheet | None = None) -> Scene:
     """The checkerboard of a form, with its zeros (yellow) and vertices of negative index (red)."""
-    sheet = Sheet.of(P.complex)
+    sheet = sheet or Sheet.of(P.complex)
     V, F = sheet.V, sheet.F
-    zeros, folds = np.flatnonzero(P.index > 0), np.flatnonzero(P.index < 0)
+    index = P.index[sheet.vertex]
+    zeros, folds = np.flatnonzero(index > 0), np.flatnonzero(index < 0)
     uv = P.corner_uv[: len(F)] * checkerboard_scale(P)
     return Scene(
         V,
@@ -160,10 +165,10 @@ def checkerboard(pixels: int = 256) -> Bytes:
     return np.rint(255.0 * colours).astype(np.uint8)
 
 
-def density_scene(P: Parametrization) -> Scene:
+def density_scene(P: Parametrization, sheet: Sheet | None = None) -> Scene:
     """The length |ζ| of a form, from dark (small) to light, on a logarithmic scale."""
     K = P.complex
-    sheet = Sheet.of(K)
+    sheet = sheet or Sheet.of(K)
     area = face_areas(K)
     at_vertices = spread_to_vertices(K, P.density * area) / spread_to_vertices(K, area)
     values = 0.5 * np.log10(np.maximum(at_vertices, 1e-300))
@@ -171,7 +176,7 @@ def density_scene(P: Parametrization) -> Scene:
     return Scene(
         sheet.V,
         sheet.F,
-        colours,
+        colours[sheet.vertex],
         legend=scale_legend(10.0**low, 10.0**high),
         caption=(
             f"|ζ| of a holomorphic form, from {10.0**low:.2g} (dark) to {10.0**high:.2g} (light), "
@@ -180,9 +185,9 @@ def density_scene(P: Parametrization) -> Scene:
     )
 
 
-def quality_scene(K: DeltaComplex, quality: MeshQuality) -> Scene:
+def quality_scene(K: DeltaComplex, quality: MeshQuality, sheet: Sheet | None = None) -> Scene:
     """Where the bound originates: its density, from dark (small) to light, logarithmic."""
-    sheet = Sheet.of(K)
+    sheet = sheet or Sheet.of(K)
     density = quality.vertex_excess / spread_to_vertices(K, face_areas(K))
     relative = density / max(quality.bound, 1e-300) * float(face_areas(K).sum())
     values = np.log10(np.maximum(relative, 1e-6))
@@ -190,7 +195,7 @@ def quality_scene(K: DeltaComplex, quality: MeshQuality) -> Scene:
     return Scene(
         sheet.V,
         sheet.F,
-        colours,
+        colours[sheet.vertex],
         legend=scale_legend(10.0**low, 10.0**high),
         caption=(
             "Where the bound originates: its part per area, compared with the average, from "
@@ -199,81 +204,28 @@ def quality_scene(K: DeltaComplex, quality: MeshQuality) -> Scene:
     )
 
 
-def cut_scene(P: Parametrization) -> Scene:
-    """The edges along which the surface is cut to a disk."""
-    sheet = Sheet.of(P.complex)
-    tail, head = (sheet.vertex[ends] for ends in half_edge_ends(P.complex))
-    normals = igl.per_vertex_normals(sheet.V, sheet.F)
-    tubes = tuple(
-        Tube(sheet.V[ends], normals[ends], _CUT, closed=False)
-        for ends in np.stack([tail[P.seams], head[P.seams]], axis=1)
-    )
-    joints = sheet.V[np.union1d(tail[P.seams], head[P.seams])]
+def cut_scene(P: Parametrization, sheet: Sheet | None = None) -> Scene:
+    """The edges along which the surface is cut to a disk; in the plane, both sides of them."""
+    K = P.complex
+    sheet = sheet or Sheet.of(K)
+    cut = P.seams
+    if sheet.unfolded:
+        cut = np.concatenate([cut, K.twin.ravel()[cut]])
+    joints = sheet.V[np.unique(sheet.ends(cut))]
     return Scene(
         sheet.V,
         sheet.F,
         _uniform(sheet.V),
-        tubes=tubes,
+        tubes=tuple(Tube(*curve, _CUT, closed=False) for curve in sheet.segments(cut)),
         balls=((joints, TUBE, _CUT),),
         caption="The cut that makes the surface a disk.",
     )
 
 
-def plain_scene(K: DeltaComplex) -> Scene:
+def plain_scene(K: DeltaComplex, sheet: Sheet | None = None) -> Scene:
     """The surface, and nothing on it."""
-    sheet = Sheet.of(K)
+    sheet = sheet or Sheet.of(K)
     return Scene(sheet.V, sheet.F, _uniform(sheet.V), caption="The surface.")
-
-
-def surface_in_space(K: DeltaComplex) -> tuple[Floats, Ints]:
-    """Positions (n, 3) and faces (m, 3) of a complex, plane ones with z = 0.
-
-    Raises
-    ------
-    ComplexError
-        If the complex has no positions, or they are in more than 3 dimensions.
-    """
-    if K.positions is None:
-        raise ComplexError(
-            "the surface has no positions in space, only lengths, so there is nothing to draw. "
-            "A surface made of V and F has positions."
-        )
-    n, dimension = K.positions.shape
-    if dimension > 3:
-        raise ComplexError(
-            f"the surface lies in R^{dimension}: project it to space first (stereographically, "
-            "for a surface in S^3)."
-        )
-    V = np.zeros((n, 3))
-    V[:, :dimension] = K.positions
-    return V, K.corner_vertex
-
-
-@dataclass(frozen=True, eq=False)
-class Sheet:
-    """What there is to see of a surface: all of it, but of a double the first sheet only.
-
-    The second sheet lies in the same place; ``vertex`` takes its vertices to those below them.
-    """
-
-    V: Floats
-    F: Ints
-    vertex: Ints
-
-    @classmethod
-    def of(cls, K: DeltaComplex) -> Sheet:
-        """The first sheet of a double, or the whole surface."""
-        V, F = surface_in_space(K)
-        vertex = np.arange(len(V))
-        try:
-            image = involution(K).vertex
-        except ComplexError:
-            return cls(V, F, vertex)
-        if not np.array_equal(V[image], V):
-            return cls(V, F, vertex)
-        seen = np.zeros(len(V), dtype=bool)
-        seen[F[: len(F) // 2]] = True
-        return cls(V, F[: len(F) // 2], np.where(seen, vertex, image))
 
 
 def _uniform(V: Floats) -> Floats:

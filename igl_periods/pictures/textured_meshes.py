@@ -25,7 +25,8 @@ from igl_periods.arrays import Floats
 from igl_periods.differentials import Parametrization
 from igl_periods.machine import require
 
-from .scenes import checkerboard, checkerboard_scale, surface_in_space
+from .scenes import checkerboard, checkerboard_scale
+from .sheets import surface_in_space
 
 # glTF: component types, buffer targets, filters and wrapping are OpenGL's constants.
 _FLOAT, _UNSIGNED_INT = 5126, 5125
