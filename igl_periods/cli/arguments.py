@@ -150,7 +150,7 @@ def add_json_argument(command: Parser) -> None:
     )
 
 
-def add_output_argument(command: Parser, what: str, *suffixes: str) -> None:
+def add_output_argument(command: Parser, what: str, *suffixes: str, required: bool = True) -> None:
     """Add the file that a command writes: its name is checked here, its place in :func:`claim`."""
 
     def output(text: str) -> str:
@@ -160,7 +160,12 @@ def add_output_argument(command: Parser, what: str, *suffixes: str) -> None:
         return text
 
     command.add_argument(
-        "-o", "--output", required=True, type=output, metavar="FILE", help=f"{what} ({suffixes[0]})"
+        "-o",
+        "--output",
+        required=required,
+        type=output,
+        metavar="FILE",
+        help=f"{what} ({suffixes[0]})",
     )
 
 

@@ -31,8 +31,17 @@ from .scenes import (
 )
 from .sheets import surface_in_space
 from .derivative_scenes import quadratic_scene, sensitivity_scene
-from .all_scenes import CYCLES, scenes_of_complex, scenes_of_matrix
-from .rendering import check_display, render, save, show, with_legend
+from .all_scenes import (
+    BOUND,
+    CHECKERBOARD,
+    CUT,
+    CYCLES,
+    LENGTH,
+    PLAIN,
+    scenes_of_complex,
+    scenes_of_matrix,
+)
+from .rendering import check_display, render, render_all, save, show, with_legend
 from .viewer import Viewer, interactive, viewer_of_scenes
 from .polygon_drawing import render_polygons
 from .textured_meshes import write_glb, write_obj
@@ -50,9 +59,15 @@ __all__ = [
     "scenes_of_matrix",
     "scenes_of_complex",
     "CYCLES",
+    "CHECKERBOARD",
+    "LENGTH",
+    "BOUND",
+    "CUT",
+    "PLAIN",
     "surface_in_space",
     "check_display",
     "render",
+    "render_all",
     "save",
     "show",
     "interactive",

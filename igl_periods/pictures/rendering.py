@@ -13,6 +13,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -66,16 +67,42 @@ def render(
     ValueError
         If the size is not between 1 and 4096, or the direction is 0.
     """
+    (picture,) = _drawn([(scene, *seen_from(scene.V, direction))], _checked(size))
+    return picture
+
+
+def render_all(scenes: Iterable[Scene], size: tuple[int, int] = (1200, 900)) -> list[Bytes]:
+    """Draw scenes as :func:`render` does: faster than one after the other.
+
+    Raises
+    ------
+    MissingExtraError
+        If Open3D is not installed.
+    RenderError
+        If a system library or a driver it needs is missing, or it does not come to an end.
+    ValueError
+        If the size is not between 1 and 4096.
+    """
+    return _drawn([(scene, *seen_from(scene.V)) for scene in scenes], _checked(size))
+
+
+def _checked(size: tuple[int, int]) -> tuple[int, int]:
     width, height = size
     if not 1 <= min(size) <= max(size) <= _LARGEST:
         raise ValueError(
             f"a picture of {width} x {height} pixels: both must be between 1 and {_LARGEST}."
         )
-    eye, up = seen_from(scene.V, direction)
-    seconds = _START + _PIXEL * width * height + _TRIANGLE * len(scene.F)
+    return size
+
+
+def _drawn(views: list[tuple[Scene, Floats, Floats]], size: tuple[int, int]) -> list[Bytes]:
+    """Pictures of scenes, each with the directions to the eye and upwards."""
+    triangles = sum(len(scene.F) for scene, _, _ in views)
+    pixels = len(views) * size[0] * size[1]
+    seconds = _START + _PIXEL * pixels + _TRIANGLE * triangles
     with stage("drawing"), tempfile.TemporaryDirectory(prefix="igl-periods-") as folder:
-        _run_open3d(Path(folder), ("draw", scene, size, eye, up), seconds)
-        return np.asarray(np.load(Path(folder, "picture.npy")))
+        _run_open3d(Path(folder), ("draw", views, size), seconds)
+        return list(np.load(Path(folder, "pictures.npy")))
 
 
 def show(scene: Scene, title: str = "igl-periods") -> None:

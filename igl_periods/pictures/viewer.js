@@ -95,7 +95,7 @@ class Viewer {
     const [eye, target, up] = [0, 3, 6].map((k) => this.layers.camera.slice(k, k + 3));
     const factor = Math.max(1, clientHeight / clientWidth);
     const place = target.map((x, i) => x + factor * (eye[i] - x));
-    this.look([...place, ...target, ...up]);
+    return this.look([...place, ...target, ...up]);
   }
 
   look(camera) {
@@ -113,14 +113,14 @@ class Viewer {
     eye.applyAxisAngle(above, right);
     eye.applyAxisAngle(across, -up);
     const newAbove = eye.clone().cross(across.applyAxisAngle(above, right)).normalize();
-    this.look([...target.clone().add(eye).toArray(), ...target.toArray(), ...newAbove.toArray()]);
+    return this.look([...target.clone().add(eye).toArray(), ...target.toArray(), ...newAbove.toArray()]);
   }
 
   approach(factor) {
     const { camera, controls } = this.world;
     const target = controls.target.clone();
     const eye = camera.position.clone().sub(target).multiplyScalar(factor).add(target);
-    this.look([...eye.toArray(), ...target.toArray(), ...camera.up.toArray()]);
+    return this.look([...eye.toArray(), ...target.toArray(), ...camera.up.toArray()]);
   }
 
   press(key) {
