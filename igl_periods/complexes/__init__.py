@@ -91,7 +91,7 @@ from .exact_numbers import (
 )
 from .number_readers import Point, exact_number, read_point
 from .polygon_gluings import GluedPolygons
-from .lattices import LatticeGluing, checked_lattice, lattice_gluing
+from .lattices import Cell, LatticeGluing, checked_lattice, lattice_gluing
 from .mesh_readers import is_array_like, mesh_reader
 from .delta_complex import DeltaComplex
 from .surface_arguments import (
@@ -109,7 +109,7 @@ from .delaunay import Flips, cocircularity_allowance, delaunay_flips, intrinsic_
 from .moved_lengths import edge_directions, edge_lengths, with_edge_lengths, with_positions
 from .flipped_lengths import FlipDerivative, flip_derivatives, pull_back, push_forward
 from .midpoint_subdivision import split
-from .barycentre_insertion import insert_barycentres, is_divisible
+from .barycentre_insertion import Barycentres, insert_barycentres, is_divisible
 from .doubling import Involution, double, involution, lift
 
 __all__ = [
@@ -145,6 +145,7 @@ __all__ = [
     "is_array_like",
     "mesh_reader",
     "LatticeGluing",
+    "Cell",
     "checked_lattice",
     "lattice_gluing",
     "DeltaComplex",
@@ -191,6 +192,7 @@ __all__ = [
     "pull_back",
     "push_forward",
     "split",
+    "Barycentres",
     "insert_barycentres",
     "is_divisible",
     "double",

@@ -22,16 +22,39 @@ converge geometrically, so that 100 digits take a degree of 200 and not a finer 
 ``quadrature``         Gauss quadrature with a proved error
 ``conforming_forms``   closed forms on the whole surface, and their energies in balls
 ``float_energies``     the same for a few digits, on arrays (``float_traces``)
+``float_matrix``       the matrix in floating point, with derivatives
 ``upper_energies``     bounds of energies in other bases; what linear forms prove
 ``siegel_point``       from the energies to the period matrix
+``limits``             seconds and bytes that it may take
+``stages``             solutions with more and more functions
 ``computation``        the steps, one after the other
 ``enclosure``          the result
 =====================  ===========================================================================
 """
 
 from .surface_choice import with_exact_distances
+from .exact_arithmetic import (
+    ball_from_text,
+    ball_in_text,
+    from_integers,
+    matrix_from_integers,
+    matrix_to_integers,
+    to_integers,
+)
 from .enclosure import PeriodEnclosure
 from .exact_lengths import distances
 from .computation import MOST_DIGITS, enclose
 
-__all__ = ["MOST_DIGITS", "distances", "PeriodEnclosure", "enclose", "with_exact_distances"]
+__all__ = [
+    "MOST_DIGITS",
+    "distances",
+    "PeriodEnclosure",
+    "enclose",
+    "with_exact_distances",
+    "matrix_to_integers",
+    "matrix_from_integers",
+    "ball_in_text",
+    "ball_from_text",
+    "to_integers",
+    "from_integers",
+]

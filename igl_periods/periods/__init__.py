@@ -22,6 +22,7 @@ triangles have the stored lengths.
 ``differentiable``    … as methods
 ``matrix``            the period matrix, its estimates and its bound
 ``certificate``       D and its allowance → the certified matrix
+``keeping``           the same with forms that are kept for derivatives
 ``proof``             the same with energies in balls: the bound is proved
 ``adaptive_degree``   the degree that meets a tolerance
 ``computation``       the steps, one after the other
@@ -38,7 +39,7 @@ References
 Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 3.
 """
 
-from .arguments import checked_options
+from .arguments import checked_limits, checked_options
 from .solved_forms import SolvedForms, solve_forms
 from .derivative import EntryCovariance, Gradient
 from .matrix import PeriodMatrix, check_period_matrix, reduced_if_feasible, siegel_reduced
@@ -56,6 +57,7 @@ __all__ = [
     "LEAST_ALLOWANCE",
     "combined",
     "congruence",
+    "checked_limits",
     "checked_options",
     "SolvedForms",
     "solve_forms",

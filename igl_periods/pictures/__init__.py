@@ -5,11 +5,14 @@ what a picture shows is tested without drawing it; Open3D draws scenes, off scre
 and is not imported before.  That happens in a process of its own, which may abort or hang.
 
 =====================  ========================================================================
+``scene``              what a picture is made of
 ``scenes``             cycles, checkerboard, density, quality, cut
 ``derivative_scenes``  sensitivity, quadratic differentials
 ``sheets``             where a surface is drawn: in space or in the plane
 ``all_scenes``         everything that there is to see of a surface
+``cells``              cells of periodic surfaces: cycles through them, several copies
 ``tubes``              closed walks as smooth tubes
+``domain_pictures``    harmonic measures, slit maps
 ``rendering``          scenes to pixels, in a process with a time limit
 ``drawing``            what that process does, with Open3D
 ``drivers``            what Open3D needs of the system
@@ -20,8 +23,8 @@ and is not imported before.  That happens in a process of its own, which may abo
 =====================  ========================================================================
 """
 
+from .scene import Scene
 from .scenes import (
-    Scene,
     checkerboard_scene,
     cut_scene,
     cycles_scene,
@@ -30,6 +33,7 @@ from .scenes import (
     quality_scene,
 )
 from .sheets import surface_in_space
+from .cells import periodic_copies
 from .derivative_scenes import quadratic_scene, sensitivity_scene
 from .all_scenes import (
     BOUND,
@@ -43,6 +47,7 @@ from .all_scenes import (
 )
 from .rendering import check_display, render, render_all, save, show, with_legend
 from .viewer import Viewer, interactive, viewer_of_scenes
+from .domain_pictures import measure_picture, slit_map_picture
 from .polygon_drawing import render_polygons
 from .textured_meshes import write_glb, write_obj
 
@@ -65,6 +70,7 @@ __all__ = [
     "CUT",
     "PLAIN",
     "surface_in_space",
+    "periodic_copies",
     "check_display",
     "render",
     "render_all",
@@ -75,6 +81,8 @@ __all__ = [
     "Viewer",
     "render_polygons",
     "with_legend",
+    "measure_picture",
+    "slit_map_picture",
     "write_glb",
     "write_obj",
 ]

@@ -11,8 +11,8 @@ from igl_periods.complexes import DeltaComplex
 from igl_periods.differentials import Parametrization, most_even_form, parametrize
 from igl_periods.periods import MeshQuality, PeriodMatrix, mesh_quality, period_matrix
 
+from .scene import Scene
 from .scenes import (
-    Scene,
     checkerboard_scene,
     cut_scene,
     cycles_scene,
@@ -68,7 +68,7 @@ def scenes_of_complex(K: DeltaComplex) -> dict[str, Scene]:
     ComplexError
         If the surface is a sphere without positions, or lies in more than 3 dimensions.
     """
-    if K.positions is None and K.polygons is None and K.euler_characteristic < 2:
+    if _is_abstract(K) and K.euler_characteristic < 2:
         pm = period_matrix(K)
         return {PLAIN: plain_scene(K, Sheet.developed(parametrize(pm, most_even_form(pm))))}
     return {PLAIN: plain_scene(K)}
@@ -76,7 +76,8 @@ def scenes_of_complex(K: DeltaComplex) -> dict[str, Scene]:
 
 def sheet_of_form(P: Parametrization) -> Sheet:
     """Where a surface is drawn that has a form: in space, as its polygons, or developed."""
-    K = P.complex
-    if K.positions is None and K.polygons is None:
-        return Sheet.developed(P)
-    return Sheet.of(K)
+    return Sheet.developed(P) if _is_abstract(P.complex) else Sheet.of(P.complex)
+
+
+def _is_abstract(K: DeltaComplex) -> bool:
+    return K.positions is None and K.polygons is None and K.cell is None

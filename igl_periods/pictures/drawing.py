@@ -12,12 +12,13 @@ from typing import Any
 import igl
 import numpy as np
 
-from igl_periods.arrays import Bytes, Floats, Ints
+from igl_periods.arrays import Bools, Bytes, Floats, Ints
 from igl_periods.errors import RenderError
 from igl_periods.machine import missing_library
 
 from .drivers import check_egl, check_vulkan
-from .scenes import TUBE, Scene, checkerboard
+from .scene import Scene
+from .scenes import TUBE, checkerboard
 from .tubes import diagonal, tube
 
 _SUN, _SKY = 45_000.0, 20_000.0
@@ -26,6 +27,7 @@ _GAMMA = 2.2
 # Pictures are drawn this many times larger and averaged, so that edges are smooth.
 _OVERSAMPLING = 2
 _CORNERS = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+_DITHERED_WHITE = 252.0
 _BACKGROUND = (1.0, 1.0, 1.0, 1.0)
 
 
@@ -66,11 +68,16 @@ def _draw(
         renderer.scene.add_geometry(name, geometry, material)
     _aim(renderer, scene.V, eye, up, size[0] / size[1])
     picture = np.asarray(renderer.render_to_image()).astype(np.float64)
-    # 0.20 colours the background, 0.19 dithers it.  Where nothing is, the depth is infinite.
-    depth = np.asarray(renderer.render_to_depth_image(z_in_view_space=True))
-    picture[np.isinf(depth)] = 255.0
+    picture[_background(o3d, renderer, picture)] = 255.0
     fine = picture.reshape(size[1], _OVERSAMPLING, size[0], _OVERSAMPLING, 3)
     return np.rint(fine.mean(axis=(1, 3))).astype(np.uint8)
+
+
+def _background(o3d: ModuleType, renderer: Any, picture: Floats) -> Bools:
+    """Where nothing is: 0.19 dithers white there, 0.20 colours it, but the depth is infinite."""
+    if _draws_with_egl(o3d):
+        return picture.min(axis=-1) >= _DITHERED_WHITE
+    return np.isinf(np.asarray(renderer.render_to_depth_image(z_in_view_space=True)))
 
 
 def show(scene: Scene, title: str) -> None:

@@ -9,14 +9,13 @@ A scene is made of arrays alone; :mod:`~igl_periods.pictures.rendering` draws it
 * where the bound of the period matrix originates;
 * the cut that makes the surface a disk.
 
-They show the surface where :meth:`~igl_periods.pictures.sheets.Sheet.of` finds it, or on another
-sheet.
+They show the surface where :meth:`~igl_periods.pictures.sheets.Sheet.of` finds it, or on a sheet
+that is given.
 """
 
 from __future__ import annotations
 
 import colorsys
-from dataclasses import dataclass
 
 import igl
 import numpy as np
@@ -24,11 +23,12 @@ import numpy as np
 from igl_periods.arrays import Bytes, Floats, Ints
 from igl_periods.complexes import DeltaComplex
 from igl_periods.differentials import Parametrization
-from igl_periods.display import arrays_repr
 from igl_periods.harmonic import face_areas, spread_to_vertices
 from igl_periods.periods import MeshQuality, PeriodMatrix
 from igl_periods.topology import canonical_cycles
 
+from .cells import smooth_cycles
+from .scene import Scene, Tube
 from .sheets import Sheet
 
 _PALE, _DARK = (0.93, 0.92, 0.90), (0.16, 0.30, 0.52)
@@ -39,52 +39,6 @@ _MOST_HANDLES = 8
 # Squares of the checkerboard per square root of the area, and the part of the faces at each end of
 # a scale that gets the extreme colours.
 _SQUARES, _CLIPPED = 60.0, 1.0
-
-
-@dataclass(frozen=True, eq=False)
-class Tube:
-    """A curve: its points (k, 3), the normals of the surface there, its colour; closed or not."""
-
-    __repr__ = arrays_repr
-
-    points: Floats
-    normals: Floats
-    colour: tuple[float, float, float]
-    closed: bool = True
-
-
-@dataclass(frozen=True, eq=False)
-class Scene:
-    """What a picture shows.
-
-    Attributes
-    ----------
-    V, F : (n, 3) float, (m, 3) int
-        The surface.
-    colours : (n, 3) float
-        RGB of the vertices, between 0 and 1.
-    corner_uv : (m, 3, 2) float or None
-        Where the corners lie on the checkerboard, of period 1 in both directions; the colours of
-        the vertices do not matter then.
-    tubes : tuple of Tube
-    balls : tuple of ((k, 3) float, float, colour)
-        Points, and their radius in diagonals of the surface.
-    legend : tuple of (str, colour)
-        What the colours mean.
-    caption : str
-        What is to be seen, in words.
-    """
-
-    __repr__ = arrays_repr
-
-    V: Floats
-    F: Ints
-    colours: Floats
-    corner_uv: Floats | None = None
-    tubes: tuple[Tube, ...] = ()
-    balls: tuple[tuple[Floats, float, tuple[float, float, float]], ...] = ()
-    legend: tuple[tuple[str, tuple[float, float, float]], ...] = ()
-    caption: str = ""
 
 
 def cycle_colour(k: int, n: int) -> tuple[float, float, float]:
@@ -102,23 +56,24 @@ def cycles_scene(pm: PeriodMatrix, sheet: Sheet | None = None) -> Scene:
     """
     K, g = pm.complex, pm.genus
     sheet = sheet or Sheet.of(K)
+    V, F = sheet.V, sheet.F
     walks = canonical_cycles(pm.complex, pm.cocycles)
     handles = _shortest_handles(K, walks)
     shown = [k for i in handles for k in (i, i + g)]
-    curves = sheet.closed_curves([walks[k] for k in shown])
+    curves = smooth_cycles(sheet, [walks[k] for k in shown])
     colours = [cycle_colour(k, len(shown)) for k in range(len(shown))]
     names = [f"{'ab'[k // g]}{k % g + 1}" for k in shown]
     which = (
         "canonical cycles" if len(handles) == g else f"canonical cycles, the shortest of {2 * g}"
     )
     return Scene(
-        sheet.V,
-        sheet.F,
-        _uniform(sheet.V),
+        V,
+        F,
+        _uniform(V),
         tubes=tuple(
-            Tube(*piece, colour, closed=not sheet.unfolded)
+            Tube(points, normals, colour, closed)
             for pieces, colour in zip(curves, colours, strict=True)
-            for piece in pieces
+            for points, normals, closed in pieces
         ),
         legend=tuple(zip(names, colours, strict=True)),
         caption=f"{len(shown)} {which}; a_i meets b_i once, and no other, counted with signs.",
@@ -136,7 +91,7 @@ def checkerboard_scene(P: Parametrization, sheet: Sheet | None = None) -> Scene:
     """The checkerboard of a form, with its zeros (yellow) and vertices of negative index (red)."""
     sheet = sheet or Sheet.of(P.complex)
     V, F = sheet.V, sheet.F
-    index = P.index[sheet.vertex]
+    index = P.index[sheet.source]
     zeros, folds = np.flatnonzero(index > 0), np.flatnonzero(index < 0)
     uv = P.corner_uv[: len(F)] * checkerboard_scale(P)
     return Scene(
@@ -171,12 +126,12 @@ def density_scene(P: Parametrization, sheet: Sheet | None = None) -> Scene:
     sheet = sheet or Sheet.of(K)
     area = face_areas(K)
     at_vertices = spread_to_vertices(K, P.density * area) / spread_to_vertices(K, area)
-    values = 0.5 * np.log10(np.maximum(at_vertices, 1e-300))
+    values = 0.5 * np.log10(np.maximum(at_vertices[sheet.source], 1e-300))
     colours, low, high = coloured(values)
     return Scene(
         sheet.V,
         sheet.F,
-        colours[sheet.vertex],
+        colours,
         legend=scale_legend(10.0**low, 10.0**high),
         caption=(
             f"|ζ| of a holomorphic form, from {10.0**low:.2g} (dark) to {10.0**high:.2g} (light), "
@@ -190,12 +145,12 @@ def quality_scene(K: DeltaComplex, quality: MeshQuality, sheet: Sheet | None = N
     sheet = sheet or Sheet.of(K)
     density = quality.vertex_excess / spread_to_vertices(K, face_areas(K))
     relative = density / max(quality.bound, 1e-300) * float(face_areas(K).sum())
-    values = np.log10(np.maximum(relative, 1e-6))
+    values = np.log10(np.maximum(relative[sheet.source], 1e-6))
     colours, low, high = coloured(values)
     return Scene(
         sheet.V,
         sheet.F,
-        colours[sheet.vertex],
+        colours,
         legend=scale_legend(10.0**low, 10.0**high),
         caption=(
             "Where the bound originates: its part per area, compared with the average, from "
@@ -205,18 +160,19 @@ def quality_scene(K: DeltaComplex, quality: MeshQuality, sheet: Sheet | None = N
 
 
 def cut_scene(P: Parametrization, sheet: Sheet | None = None) -> Scene:
-    """The edges along which the surface is cut to a disk; in the plane, both sides of them."""
-    K = P.complex
-    sheet = sheet or Sheet.of(K)
-    cut = P.seams
-    if sheet.unfolded:
-        cut = np.concatenate([cut, K.twin.ravel()[cut]])
-    joints = sheet.V[np.unique(sheet.ends(cut))]
+    """The edges along which the surface is cut to a disk."""
+    sheet = sheet or Sheet.of(P.complex)
+    # In a cell both sides of a seam are seen, each in its place.
+    seams = np.concatenate([P.seams, P.complex.twin.ravel()[P.seams]])
+    ends = np.unique(np.sort(np.stack(sheet.ends(seams), axis=1), axis=1), axis=0)
+    normals = igl.per_vertex_normals(sheet.V, sheet.F)
+    tubes = tuple(Tube(sheet.V[e], normals[e], _CUT, closed=False) for e in ends)
+    joints = sheet.V[np.unique(ends)]
     return Scene(
         sheet.V,
         sheet.F,
         _uniform(sheet.V),
-        tubes=tuple(Tube(*curve, _CUT, closed=False) for curve in sheet.segments(cut)),
+        tubes=tubes,
         balls=((joints, TUBE, _CUT),),
         caption="The cut that makes the surface a disk.",
     )

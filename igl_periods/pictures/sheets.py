@@ -1,82 +1,116 @@
-"""Where a surface is drawn: in space, or unfolded in the plane.
+"""What there is to see of a surface, and where: in space, or unfolded in the plane.
 
-A surface with positions lies in space.  One that was glued from polygons lies in the plane, as its
-polygons do.  Any other can be cut to a disk and developed by z = ∫ζ, which is an isometry on every
-triangle of a flat surface with ζ = dz, and conformal up to the error of discretisation otherwise;
-the image may overlap itself.  In the plane a vertex of the surface is drawn several times, and a
-closed walk is drawn in pieces.
+Of a double that is one sheet, of a periodic surface its cell.  A surface without positions that was
+glued from polygons lies in the plane, as its polygons do.  Any other can be cut to a disk and
+developed by z = ∫ζ, which is an isometry on every triangle of a flat surface with ζ = dz, and
+conformal up to the error of discretisation otherwise; the image may overlap itself.  In the plane a
+vertex of the surface is drawn several times, and a closed walk in pieces.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
-import igl
 import numpy as np
 
-from igl_periods.arrays import Complexes, Floats, Ints
+from igl_periods.arrays import Floats, Ints
 from igl_periods.complexes import DeltaComplex, involution
 from igl_periods.differentials import Parametrization
-from igl_periods.display import arrays_repr
 from igl_periods.errors import ComplexError
 
 from .polygon_drawing import laid_out
-from .tubes import smooth_closed_curves
+
+
+def surface_in_space(K: DeltaComplex) -> tuple[Floats, Ints]:
+    """Positions (n, 3) and faces (m, 3) of a complex, plane ones with z = 0.
+
+    They are the vertices of the complex and its faces; of the quotient of a periodic surface those
+    of its cell.
+
+    Raises
+    ------
+    ComplexError
+        If the complex has no positions, or they are in more than 3 dimensions.
+    """
+    if K.cell is not None:
+        points = K.cell.corners.reshape(3 * K.n_faces, -1)
+        positions, F = np.unique(points, axis=0, return_inverse=True)
+        return _in_space(positions), F.reshape(-1, 3)
+    if K.positions is None:
+        raise ComplexError(
+            "the surface has no positions in space, only lengths, so there is nothing to draw. "
+            "A surface made of V and F has positions."
+        )
+    return _in_space(K.positions), K.corner_vertex
+
+
+def _in_space(positions: Floats) -> Floats:
+    n, dimension = positions.shape
+    if dimension > 3:
+        raise ComplexError(
+            f"the surface lies in R^{dimension}: project it to space first (stereographically, "
+            "for a surface in S^3)."
+        )
+    V = np.zeros((n, 3))
+    V[:, :dimension] = positions
+    return V
 
 
 @dataclass(frozen=True, eq=False)
 class Sheet:
     """What there is to see of a surface: all of it, but of a double the first sheet only.
 
+    The second sheet lies in the same place.
+
     Attributes
     ----------
-    V, F : (k, 3) float, (m, 3) int
-        Points and triangles: the first m faces of the surface.
-    vertex : (k,) int
-        The vertex of the surface at each point.
-    corner : (faces, 3) int
-        The point at each corner of all faces; of the second sheet those below them.
+    V, F : (n, 3) float, (m, 3) int
+    corner : (m', 3) int
+        The row of V at each corner of all faces of the complex, those of the second sheet too.
+    source : (n,) int
+        The vertex of the complex at each row of V.
+    complex : DeltaComplex
     unfolded : bool
         Whether the surface is cut, and lies in the plane.
     """
 
-    __repr__ = arrays_repr
-
     V: Floats
     F: Ints
-    vertex: Ints
     corner: Ints
+    source: Ints
+    complex: DeltaComplex
     unfolded: bool = False
 
     @classmethod
     def of(cls, K: DeltaComplex) -> Sheet:
-        """The surface in space; where it has no positions, the polygons it was glued from.
+        """The first sheet of a double, or the whole surface; or the polygons it was glued from.
 
         Raises
         ------
         ComplexError
-            If it has neither, or its positions are in more than 3 dimensions.
+            As :func:`surface_in_space`, unless there are polygons.
         """
-        if K.positions is None and K.polygons is not None:
+        if K.cell is None and K.positions is None and K.polygons is not None:
             return cls._of_polygons(K)
         V, F = surface_in_space(K)
-        everything = np.arange(len(V))
+        source = np.empty(len(V), dtype=np.int64)
+        source[F] = K.corner_vertex
+        m = K.n_faces // 2
         try:
-            image = involution(K).vertex
+            image = involution(K).half_edge.reshape(-1, 3)
         except ComplexError:
-            return cls(V, F, everything, F)
-        if not np.array_equal(V[image], V):
-            return cls(V, F, everything, F)
-        first = F[: len(F) // 2]
-        seen = np.zeros(len(V), dtype=bool)
-        seen[first] = True
-        return cls(V, first, everything, np.where(seen, everything, image)[F])
+            return cls(V, F, F, source, K)
+        # Corners have the numbers of the sides opposite to them.
+        below = F.ravel()[image[m:]]
+        if not np.array_equal(V[below], V[F[m:]]):
+            return cls(V, F, F, source, K)
+        return cls(V, F[:m], np.concatenate([F[:m], below]), source, K)
 
     @classmethod
     def developed(cls, P: Parametrization) -> Sheet:
         """The surface cut to a disk, in the plane of z = ∫ζ."""
-        return cls(_in_space(P.uv), P.corner, P.vertex, P.corner, unfolded=True)
+        V = _in_space(np.stack([P.uv.real, P.uv.imag], axis=1))
+        return cls(V, P.corner, P.corner, P.vertex, P.complex, unfolded=True)
 
     @classmethod
     def _of_polygons(cls, K: DeltaComplex) -> Sheet:
@@ -84,73 +118,20 @@ class Sheet:
         placed, _ = laid_out([polygon.copy() for polygon in K.polygons.xy])
         first = np.cumsum([0, *map(len, placed)])
         corner = first[K.polygons.polygon][:, None] + K.polygons.corners
-        vertex = np.zeros(first[-1], dtype=np.int64)
-        vertex[corner] = K.corner_vertex
-        z = np.concatenate(placed) @ np.array([1.0, 1j])
-        return cls(_in_space(z), corner, vertex, corner, unfolded=True)
+        source = np.zeros(first[-1], dtype=np.int64)
+        source[corner] = K.corner_vertex
+        return cls(_in_space(np.concatenate(placed)), corner, corner, source, K, unfolded=True)
 
     def ends(self, half_edges: Ints) -> tuple[Ints, Ints]:
-        """The points at which half-edges start and end."""
-        face, side = np.divmod(half_edges, 3)
-        return self.corner[face, (side + 1) % 3], self.corner[face, (side + 2) % 3]
+        """The rows of V from which and to which half-edges of the complex lead."""
+        face, s = np.divmod(half_edges, 3)
+        return self.corner[face, (s + 1) % 3], self.corner[face, (s + 2) % 3]
 
-    def closed_curves(self, walks: list[Ints]) -> list[list[tuple[Floats, Floats]]]:
-        """Closed walks along half-edges as curves: points, and the normals of the surface there.
-
-        In space each is one closed curve, shortened and smoothed; in the plane it is in pieces.
-        """
-        if self.unfolded:
-            return [[self._along(piece) for piece in self._pieces(walk)] for walk in walks]
-        closed = smooth_closed_curves(self.V, self.F, [self.V[self.ends(w)[0]] for w in walks])
-        return [[curve] for curve in closed]
-
-    def segments(self, half_edges: Ints) -> list[tuple[Floats, Floats]]:
-        """Half-edges as straight curves."""
-        return [self._along(ends) for ends in np.stack(self.ends(half_edges), axis=1)]
-
-    def _along(self, points: Ints) -> tuple[Floats, Floats]:
-        return self.V[points], self.normals[points]
-
-    @cached_property
-    def normals(self) -> Floats:
-        """Unit normals at the points; (k, 3)."""
-        if self.unfolded:
-            return np.tile([0.0, 0.0, 1.0], (len(self.V), 1))
-        return np.asarray(igl.per_vertex_normals(self.V, self.F))
-
-    def _pieces(self, walk: Ints) -> list[Ints]:
-        """The points of a walk, in pieces that hang together in the plane."""
+    def pieces(self, walk: Ints) -> list[Ints]:
+        """The rows of V that a walk along half-edges passes, in pieces that hang together."""
         start, end = self.ends(walk)
         breaks = np.flatnonzero(end[:-1] != start[1:]) + 1
         return [
             np.concatenate([piece, end[last : last + 1]])
             for piece, last in zip(np.split(start, breaks), [*(breaks - 1), len(walk) - 1])
         ]
-
-
-def surface_in_space(K: DeltaComplex) -> tuple[Floats, Ints]:
-    """Positions (n, 3) and faces (m, 3) of a complex, plane ones with z = 0.
-
-    Raises
-    ------
-    ComplexError
-        If the complex has no positions, or they are in more than 3 dimensions.
-    """
-    if K.positions is None:
-        raise ComplexError(
-            "the surface has no positions in space, only lengths, so there is nothing to draw. "
-            "A surface made of V and F has positions."
-        )
-    n, dimension = K.positions.shape
-    if dimension > 3:
-        raise ComplexError(
-            f"the surface lies in R^{dimension}: project it to space first (stereographically, "
-            "for a surface in S^3)."
-        )
-    V = np.zeros((n, 3))
-    V[:, :dimension] = K.positions
-    return V, K.corner_vertex
-
-
-def _in_space(z: Complexes) -> Floats:
-    return np.stack([z.real, z.imag, np.zeros(z.shape)], axis=-1)

@@ -32,7 +32,7 @@ from igl_periods.run_log import stage
 
 from .all_scenes import CYCLES, PLAIN, scenes_of_complex, scenes_of_matrix
 from .rendering import seen_from
-from .scenes import Scene
+from .scene import Scene
 from .viewer_objects import (
     ANGLE_OF_VIEW,
     PagePoints,

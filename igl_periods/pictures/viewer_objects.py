@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 
 from igl_periods.arrays import Bytes, Floats, Ints
 
-from .scenes import TUBE, Scene, Tube, checkerboard
+from .scene import Scene, Tube
+from .scenes import TUBE, checkerboard
 from .tubes import diagonal, tube
 
 # Of the camera, from top to bottom, in degrees.
