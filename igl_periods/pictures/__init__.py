@@ -47,6 +47,7 @@ from .all_scenes import (
 )
 from .rendering import check_display, render, render_all, save, show, with_legend
 from .viewer import Viewer, interactive, viewer_of_scenes
+from .viewer_objects import png_bytes
 from .domain_pictures import measure_picture, slit_map_picture
 from .polygon_drawing import render_polygons
 from .textured_meshes import write_glb, write_obj
@@ -79,6 +80,7 @@ __all__ = [
     "interactive",
     "viewer_of_scenes",
     "Viewer",
+    "png_bytes",
     "render_polygons",
     "with_legend",
     "measure_picture",
