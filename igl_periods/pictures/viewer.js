@@ -95,12 +95,12 @@ class Viewer {
     const [eye, target, up] = [0, 3, 6].map((k) => this.layers.camera.slice(k, k + 3));
     const factor = Math.max(1, clientHeight / clientWidth);
     const place = target.map((x, i) => x + factor * (eye[i] - x));
-    return this.look([...place, ...target, ...up]);
+    this.look([...place, ...target, ...up]);
   }
 
   look(camera) {
     this.k3d.setCamera(camera);
-    return this.k3d.render(true);
+    this.k3d.render(true);
   }
 
   // Turn the eye about the middle of what is seen, to the right and upwards, in radians.
@@ -113,14 +113,14 @@ class Viewer {
     eye.applyAxisAngle(above, right);
     eye.applyAxisAngle(across, -up);
     const newAbove = eye.clone().cross(across.applyAxisAngle(above, right)).normalize();
-    return this.look([...target.clone().add(eye).toArray(), ...target.toArray(), ...newAbove.toArray()]);
+    this.look([...target.clone().add(eye).toArray(), ...target.toArray(), ...newAbove.toArray()]);
   }
 
   approach(factor) {
     const { camera, controls } = this.world;
     const target = controls.target.clone();
     const eye = camera.position.clone().sub(target).multiplyScalar(factor).add(target);
-    return this.look([...eye.toArray(), ...target.toArray(), ...camera.up.toArray()]);
+    this.look([...eye.toArray(), ...target.toArray(), ...camera.up.toArray()]);
   }
 
   press(key) {

@@ -69,13 +69,13 @@ _BIBTEX = """@incollection{BobenkoMercatSchmies2011,
 }"""
 _DEFINITION = (
     "<p>Π in the marking of the pictures: Π<sub><i>kl</i></sub> is the integral along "
-    "<i>b</i><sub><i>l</i></sub> of the holomorphic form ζ<sub><i>k</i></sub> whose integrals along "
-    "<i>a</i><sub>1</sub>, …, <i>a</i><sub><i>g</i></sub> are 0, but for 1 along "
+    "<i>b</i><sub><i>l</i></sub> of the holomorphic form ζ<sub><i>k</i></sub> whose integrals "
+    "along <i>a</i><sub>1</sub>, …, <i>a</i><sub><i>g</i></sub> are 0, but for 1 along "
     "<i>a</i><sub><i>k</i></sub>.</p>"
 )
 # Of pictures beside a surface that one can turn, and of pictures alone.
 _BESIDE, _ALONE = (480, 344), (900, 640)
-_HEIGHT = 560
+_HEIGHT = 600
 # What the page may do: without a surface to turn no script runs.
 _POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
 _POLICY_OF_VIEWERS = (

@@ -9,7 +9,10 @@ from html import escape
 
 # What plain sentences write, and how it is set; in this order.
 _RULES = (
-    (r"\b([abh])_?(\d+|[ijklg])\b", r"<i>\1</i><sub>\2</sub>"),
+    (r"\bI_(\d+)\^(\d+)", r"<i>I</i><sub>\1</sub><sup>\2</sup>"),
+    (r"\bI_(\d+)", r"<i>I</i><sub>\1</sub>"),
+    (r"\bxi_\{(\d+),(\d+)\}", r"<i>ξ</i><sub>\1,\2</sub>"),
+    (r"\b([ab])_?(\d+|[ijklg])\b", r"<i>\1</i><sub>\2</sub>"),
     (r"ζ_(\d+|[ijkl])", r"ζ<sub>\1</sub>"),
     (r"\bh\^(\d+(?:\.\d+)?)", r"<i>h</i><sup>\1</sup>"),
     (r"(?<![\w.])1e([+-])0*(\d+)\b", r"10<sup>\1\2</sup>"),
