@@ -40,7 +40,7 @@ def add_report(commands: Commands) -> None:
 def _report(options: argparse.Namespace) -> int:
     from igl_periods.reports import write_report
 
-    require("a report", "k3d", "matplotlib", "open3d", "PIL")
+    require("a report", *(["k3d"] if options.interactive else []), "matplotlib", "open3d", "PIL")
     claim(options)
     K, mesh = chosen_surface(options)
     pm = reduced_matrix(K, options)

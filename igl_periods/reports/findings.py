@@ -79,9 +79,8 @@ def symmetries(pm: PeriodMatrix) -> list[tuple[str, str]]:
     except (EnumerationLimitError, ValueError) as error:
         return [("symmetries of the period matrix", f"not decided: {error}")]
     answer = {True: "yes", False: "no", None: "not decided"}[group.hyperelliptic]
-    known = "" if pm.certified else " (taking the matrix to be right)"
     return [
-        ("γ in Sp(2g, Z) with γ · Π = Π, within the bound", f"{group.order}{known}"),
+        ("γ in Sp(2g, Z) with γ · Π = Π, within the bound", str(group.order)),
         ("symmetries that reverse the orientation", str(len(group.reversing))),
         ("hyperelliptic", answer),
     ]

@@ -129,12 +129,12 @@ def write_report(
     Raises
     ------
     MissingExtraError
-        If k3d, matplotlib, Open3D or Pillow are not installed.
+        If matplotlib, Open3D, Pillow, or k3d for a surface to turn are not installed.
     OSError
         If the file cannot be written, before anything is drawn.
     """
     check_output(path)
-    require("a report", "k3d", "matplotlib", "open3d", "PIL")
+    require("a report", *(["k3d"] if interactive else []), "matplotlib", "open3d", "PIL")
     quality = mesh_quality(pm.complex)
     P = parametrize(pm, most_even_form(pm)) if pm.genus else None
     sections = {
