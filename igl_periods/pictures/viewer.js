@@ -98,9 +98,9 @@ class Viewer {
     this.look([...place, ...target, ...up]);
   }
 
+  // The library draws when the camera has moved, unless it is drawing at that moment.
   look(camera) {
     this.k3d.setCamera(camera);
-    this.k3d.render(true);
   }
 
   // Turn the eye about the middle of what is seen, to the right and upwards, in radians.
@@ -168,6 +168,7 @@ async function start() {
   addControls(viewer);
   await viewer.paint(viewer.layers.first);
   viewer.fit();
+  k3d.render(true);
   return viewer;
 }
 

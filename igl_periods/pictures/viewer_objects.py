@@ -85,7 +85,7 @@ def snapshot(scenes: Mapping[str, Scene], points: PagePoints, first: str) -> byt
         menu_visibility=False,
         axes_helper=0.0,
         camera_fov=ANGLE_OF_VIEW,
-        lighting=1.7,
+        lighting=1.6,
         depth_peels=_DEPTH_PEELS,
         name=None,
     )
