@@ -190,7 +190,7 @@ def _mesh(mesh: MeshReport | None) -> str:
     if mesh is None:
         return "<p>No mesh file was read.</p>"
     text = str(mesh).replace(mesh.file, Path(mesh.file).name)
-    return f'<pre tabindex="0" aria-label="The mesh file">{escape(text)}</pre>'
+    return f'<pre tabindex="0" role="region" aria-label="The mesh file">{escape(text)}</pre>'
 
 
 # ---- Pictures ----
