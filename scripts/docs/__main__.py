@@ -81,7 +81,7 @@ def main(arguments=None):
     os.environ.setdefault("MPLBACKEND", "agg")
     command = ["-b", "html", "-W", "--keep-going", "-q", "-n", "-c", str(HERE)]
     if options.no_run:
-        command += ["-D", "plot_gallery=0"]
+        os.environ["IGL_PERIODS_TUTORIALS_NOT_RUN"] = "1"
     code = build_main([*command, str(STAGE), str(options.output)])
     if code == 0:
         print(options.output / "index.html")

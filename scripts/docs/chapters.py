@@ -13,6 +13,7 @@ from pathlib import Path
 from types import ModuleType
 
 import igl_periods as ip
+from plain_mathematics import escaped, escaped_lines, without_roles
 
 SOURCE = Path(ip.__file__).parent
 # Public modules that are no packages, and the chapters to which they belong.
@@ -96,7 +97,8 @@ def summary(entry):
     value = located(entry)
     if not (inspect.isroutine(value) or inspect.isclass(value)):
         return ""
-    return " ".join((inspect.getdoc(value) or "").split("\n\n")[0].split())
+    text = " ".join((inspect.getdoc(value) or "").split("\n\n")[0].split())
+    return escaped(without_roles(text))
 
 
 def role(entry):
@@ -127,9 +129,9 @@ def chapter(package):
     """The page of a package: its docstring, and what it exports for users."""
     doc = inspect.getdoc(face(package))
     first, _, rest = doc.partition("\n")
-    yield f":orphan:\n\n.. py:module:: igl_periods.{package}\n\n".removeprefix(":orphan:\n\n")
-    yield title(package.replace("_", " ").capitalize() + ": " + decapitalised(first.rstrip(".")))
-    yield rest.strip() + "\n\n"
+    yield f".. py:module:: igl_periods.{package}\n\n"
+    yield title(package.replace("_", " ").capitalize() + ": " + decapitalised(escaped(first.rstrip("."))))
+    yield "\n".join(escaped_lines(rest.strip().splitlines())) + "\n\n"
     names = [entry for entry in entries_of()[package] if is_for_users(entry)]
     if names:
         yield title("Names", "-")

@@ -1,5 +1,6 @@
 """How Sphinx builds the site; ``python scripts/docs`` calls it."""
 
+import os
 import sys
 import warnings
 from importlib.metadata import version as installed_version
@@ -10,6 +11,7 @@ ROOT = HERE.parents[1]
 sys.path[:0] = [str(HERE), str(ROOT)]
 
 from cross_references import resolve  # noqa: E402
+from plain_mathematics import escaped_lines  # noqa: E402
 
 project = "igl_periods"
 author = "the igl_periods maintainers"
@@ -45,7 +47,7 @@ warnings.filterwarnings("ignore", message=".*FigureCanvasAgg is non-interactive.
 sphinx_gallery_conf = {
     "examples_dirs": str(ROOT / "scripts" / "examples"),
     "gallery_dirs": "examples",
-    "filename_pattern": r"\.py$",
+    "filename_pattern": r"/(?!jax_|torch_|one_mesh_under_mpi)\w+\.py$",
     "ignore_pattern": r"__init__\.py",
     "within_subsection_order": "tutorial_order.by_number",
     "abort_on_example_error": True,
@@ -54,7 +56,7 @@ sphinx_gallery_conf = {
     "write_computation_times": False,
     "download_all_examples": False,
     "remove_config_comments": True,
-    "plot_gallery": True,
+    "plot_gallery": "IGL_PERIODS_TUTORIALS_NOT_RUN" not in os.environ,
     "image_scrapers": ("matplotlib",),
     "thumbnail_size": (400, 300),
     "capture_repr": (),
@@ -73,5 +75,10 @@ pygments_style = "a11y-high-contrast-light"
 pygments_dark_style = "a11y-high-contrast-dark"
 
 
+def escape(app, what, name, obj, options, lines):
+    lines[:] = escaped_lines(lines)
+
+
 def setup(app):
+    app.connect("autodoc-process-docstring", escape, priority=400)  # before numpydoc
     app.connect("missing-reference", resolve)

@@ -6,22 +6,36 @@ one name.  A module inside a package is described on the page of its package.
 
 import importlib
 import inspect
+import sys
 
 from chapters import HOME, LONE_MODULES, entries, package_names
 
 
 def entry_name(target, module):
     """The name of the entry of what a docstring calls ``target``, or None."""
-    target = target.lstrip(".")
-    for prefix in ("", f"{module}." if module else "", "igl_periods."):
-        value, owner, members = _followed(prefix + target)
-        if owner is not None:
-            key = (owner.__module__, owner.__qualname__)
-            if key in entries():
-                return ".".join([entries()[key], *members])
-        elif value is not None and target.rpartition(".")[2] in entries():
-            return entries()[target.rpartition(".")[2]]
-    return None
+    value, owner, members = _found(target.lstrip("."), module)
+    if owner is None:
+        last = target.rpartition(".")[2]
+        return entries().get(last) if value is not None else None
+    entry = entries().get((owner.__module__, owner.__qualname__))
+    return entry and ".".join([entry, *members])
+
+
+def page_of_object(target, module):
+    """The chapter of an object without an entry, or None."""
+    owner = _found(target.lstrip("."), module)[1]
+    return owner and page_of_module(owner.__module__, None)
+
+
+def _found(target, module):
+    """The object that is meant: by its path, from the module of the text, or anywhere inside."""
+    inside = sorted(name for name in sys.modules if name.startswith("igl_periods."))
+    own = [name for name in inside if module and name.startswith(f"{module}.")]
+    for prefix in ("", f"{module}." if module else "", "igl_periods.", *(f"{n}." for n in own + inside)):
+        found = _followed(prefix + target)
+        if found[0] is not None:
+            return found
+    return None, None, []
 
 
 def _followed(path):
@@ -71,7 +85,8 @@ def resolve(app, env, node, contnode):
         return _link(app, node, contnode, page, "")
     name = entry_name(target, module)
     if name is None or name not in domain.objects:
-        return None
+        page = page_of_object(target, module)
+        return page and _link(app, node, contnode, page, "")
     found = domain.objects[name]
     return _link(app, node, contnode, found.docname, found.node_id)
 

@@ -31,7 +31,7 @@ print("of circles:", 2 * np.pi / np.log(2))
 # A plate with two holes, no symmetry: a 3 × 3 matrix, every entry between proved bounds.
 
 outer = np.array([0, 5, 5 + 3j, 2 + 4j, 3j])
-holes = [circle(0.5, 1.2 + 1.2j, 12), np.array([3, 4 + 0.5j, 3.7 + 1.8j, 3 + 1.5j])]
+holes = [circle(0.5, 1.2 + 1.2j, 12), np.array([3 + 0.4j, 4 + 0.5j, 3.7 + 1.8j, 3 + 1.5j])]
 V, F = planar_domain(outer, holes)
 C = ip.capacity_matrix(V, F, tolerance=1e-6)
 lower, upper = C.entry_bounds
@@ -51,8 +51,8 @@ plt.title("Potential of one conductor")
 plt.show()
 
 # %%
-# Extremal length of a quadrilateral: the resistance between two opposite sides.  Of a rectangle it
-# is the length over the width.
+# Extremal length of a quadrilateral: the resistance between its first side and the opposite one.  Of
+# a rectangle it is their distance over their length.
 
 V, F = planar_domain([0, 3, 3 + 1j, 1j])
 print(ip.extremal_length(V, F, [0, 1, 2, 3]))

@@ -51,7 +51,7 @@ def main():
 
 if __name__ == "__main__":
     frame = main()
-    print(frame[["file", "genus", "bound", "error"]].tail())
+    print(frame[["file", "genus", "bound", "error"]].head())
     good = frame[frame["error"].isna()]
     assert len(good) == COUNT
     assert (good["bound"] <= 1e-4).all()

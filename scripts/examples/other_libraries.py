@@ -36,11 +36,11 @@ print(before.matrix, after.matrix)
 
 legacy = open3d.geometry.TriangleMesh.create_torus(2.0, 0.7, 12, 8)
 finer = legacy.subdivide_midpoint(1)
-coarse_matrix = ip.period_matrix(legacy, None, tolerance=1e-6)
-assert ip.moduli_distance(coarse_matrix, ip.period_matrix(finer, None, tolerance=1e-6)) < 1e-5
+one, other = (ip.period_matrix(mesh, tolerance=1e-6) for mesh in (legacy, finer))
+assert ip.moduli_distance(one, other, tolerance=1e-5) < 1e-5
 
 # %%
-# **PyVista**: |ζ|² as an array of cells.  ``poly.plot(scalars="density")`` shows it in a window.
+# **PyVista**: the density of ζ as an array of cells.  ``poly.plot(scalars="density")`` shows it.
 
 poly = pyvista.PolyData.from_regular_faces(V, F)
 pm = ip.period_matrix(poly)

@@ -33,11 +33,13 @@ P = ip.parametrize(pm, form)
 print(P)
 
 # %%
-# Zeros: a form on genus 4 has 6 of them, counted with multiplicity.
+# Zeros: a form on genus 4 has 6 of them, counted with multiplicity.  A zero at a vertex winds the
+# image of its triangles round more than once; one inside a triangle turns its image over.
 
-zeros = np.flatnonzero(P.index > 0)
-print({int(v): int(P.index[v]) for v in zeros})
-assert P.index.sum() + np.count_nonzero(P.reversed_faces) == 2 * pm.genus - 2
+at_vertices = {int(v): int(P.index[v]) for v in np.flatnonzero(P.index)}
+in_faces = np.flatnonzero(P.reversed_faces)
+print("at vertices:", at_vertices, "in faces:", in_faces)
+assert sum(at_vertices.values()) + len(in_faces) == 2 * pm.genus - 2
 
 # %%
 # Seams: across each of them z jumps by a sum of periods of the form, exactly.
