@@ -14,6 +14,7 @@ page.  In reading order:
 ``meshes``         a file → V, F
 ``complexes``      V, F → K, and the moves (K, c) → (K′, c′)
 ``topology``       K → integer cochains, cycles
+``flat_surfaces``  a flat surface → stratum, holonomy, area, dz and its periods
 ``harmonic``       K, cochains → D, by linear functions
 ``elements``       K, cochains → D, by functions of high degree, conical at cone points
 ``proofs``         the same energies in midpoint–radius arithmetic
@@ -51,7 +52,7 @@ from .errors import (
     RenderError,
 )
 from .meshes import MeshReport, load_mesh, sample_files, split_components
-from .complexes import DeltaComplex, double, intrinsic_delaunay
+from .complexes import DeltaComplex, algebraic_number, double, intrinsic_delaunay
 from .recognition import (
     AlgebraicNumber,
     NumberField,
@@ -64,6 +65,12 @@ from .topology import (
     fundamental_polygon,
     homology_basis,
     shortest_loops,
+)
+from .flat_surfaces import (
+    FlatSurfaceReport,
+    flat_surface_report,
+    from_flatsurf,
+    to_flatsurf_dict,
 )
 from .harmonic import harmonic_form_blocks, harmonic_forms
 from .periods import (
@@ -149,6 +156,7 @@ __all__ = [
     "sample_files",
     "MeshReport",
     "DeltaComplex",
+    "algebraic_number",
     "double",
     "intrinsic_delaunay",
     # topology
@@ -157,6 +165,11 @@ __all__ = [
     "dual_homology_basis",
     "fundamental_polygon",
     "shortest_loops",
+    # flat surfaces
+    "flat_surface_report",
+    "FlatSurfaceReport",
+    "from_flatsurf",
+    "to_flatsurf_dict",
     # period matrices
     "period_matrix",
     "period_matrix_from_weights",

@@ -20,6 +20,12 @@ barycentres, the double.  The surface stays what it is, and the classes go along
 ``triangles``             areas, angles and cotangents from three lengths; mollification
 ``checked_arrays``        positions, faces and lengths as callers hand them over
 ``gluings``               which side is glued to which: twins, vertices, components
+``exact_numbers``         rational, algebraic and computable real numbers
+``number_readers``        numbers and points of all libraries, as exact ones
+``plane_polygons``        orientation, crossings and triangles of polygons
+``polygon_gluings``       polygons glued along their sides
+``gluing_documents``      surfaces as JSON
+``assembly``              what a complex consists of
 ``glued_squares``         unit squares glued along sides, and grids of them
 ``lattices``              cells of periodic surfaces, glued by translations
 ``delta_complex``         the complex itself
@@ -73,6 +79,18 @@ from .exact_lengths import (
     lattice_length,
     root_of,
 )
+from .exact_numbers import (
+    ComputedNumber,
+    FieldElement,
+    Number,
+    RealField,
+    algebraic_number,
+    ball_of,
+    cosine_and_sine,
+    sign_of,
+)
+from .number_readers import Point, exact_number, read_point
+from .polygon_gluings import GluedPolygons
 from .lattices import LatticeGluing, checked_lattice, lattice_gluing
 from .mesh_readers import is_array_like, mesh_reader
 from .delta_complex import DeltaComplex
@@ -141,6 +159,18 @@ __all__ = [
     "circumradius",
     "lattice_length",
     "root_of",
+    "ComputedNumber",
+    "FieldElement",
+    "Number",
+    "RealField",
+    "algebraic_number",
+    "ball_of",
+    "cosine_and_sine",
+    "sign_of",
+    "Point",
+    "exact_number",
+    "read_point",
+    "GluedPolygons",
     "cone_angles",
     "cotan_weights",
     "extrinsic_weights",

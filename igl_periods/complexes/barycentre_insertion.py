@@ -102,6 +102,7 @@ def insert_barycentres(
     finer = replace(
         K,
         exact_lengths=None,
+        polygons=None,
         lengths=replaced(K.lengths, K.lengths[faces], distance[:, _BEFORE], distance[:, _AFTER]),
         twin=replaced(
             twin, twin[faces], 3 * child[:, _AFTER] + _SIDE, 3 * child[:, _BEFORE] + _SIDE

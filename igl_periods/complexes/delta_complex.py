@@ -31,10 +31,11 @@ Pinkall, Polthier, "Computing discrete minimal surfaces and their conjugates" (1
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import json
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import igl
 import numpy as np
@@ -45,31 +46,23 @@ from igl_periods.display import counted, facts_html
 from igl_periods.errors import MeshError
 from igl_periods.run_log import logger
 
-from .checked_arrays import (
-    check_equal_when_glued,
-    check_finite,
-    check_scale,
-    checked_faces,
-    checked_lengths,
-    checked_positions,
-)
+from .assembly import assembled, parts_of
+from .checked_arrays import check_finite, checked_faces, checked_lengths, checked_positions
 from .exact_lengths import ExactLengths, by_kind, root_of
 from .glued_squares import squares
+from .gluing_documents import document_of, surface_in_document
 from .gluings import (
     check_fans,
     checked_same,
     checked_twin,
     compressed,
-    corner_vertices,
-    face_components,
-    first_half,
     reversing_sides,
     twins_of_faces,
 )
 from .lattices import lattice_gluing
 from .mesh_readers import vertices_and_faces
+from .polygon_gluings import GluedPolygons, glued_polygons, lengths_of_polygons
 from .surface_checks import check_surface, topology_in_words
-from .triangles import mollify
 
 if TYPE_CHECKING:
     from .surface_arguments import SurfaceLike
@@ -79,8 +72,9 @@ if TYPE_CHECKING:
 class DeltaComplex(ReadOnlyArrays):
     """Euclidean triangles glued along their sides.
 
-    Build one with :meth:`from_mesh`, :meth:`from_lengths`, :meth:`from_gluing` or
-    :meth:`from_squares`, which check every invariant; the plain constructor checks nothing.
+    Build one with :meth:`from_mesh`, :meth:`from_lengths`, :meth:`from_gluing`,
+    :meth:`from_squares` or :meth:`from_polygons`, which check every invariant; the plain
+    constructor checks nothing.
     A complex may have a boundary or disagreeing orientations; :func:`check_surface` refuses
     those, as everything that computes a period matrix does.
 
@@ -112,6 +106,8 @@ class DeltaComplex(ReadOnlyArrays):
         The lengths of the edges as balls, for a precision in bits, where the doubles in ``lengths``
         are rounded (:mod:`igl_periods.complexes.exact_lengths`); what is proved is proved about
         these.  Where there is no such function, the doubles are the lengths, exactly.
+    polygons : GluedPolygons or None
+        The polygons of the plane that the surface was glued from, whose triangles the faces are.
     """
 
     lengths: Floats
@@ -126,6 +122,7 @@ class DeltaComplex(ReadOnlyArrays):
     mollification: float = 0.0
     distortion: Floats | None = None
     exact_lengths: ExactLengths | None = None
+    polygons: GluedPolygons | None = None
 
     def __repr__(self) -> str:
         sizes = [
@@ -239,7 +236,7 @@ class DeltaComplex(ReadOnlyArrays):
         """
         glued = checked_twin(twin)
         alike = checked_same(np.zeros(glued.shape, dtype=bool) if same is None else same, glued)
-        return _assemble(checked_lengths(lengths, len(glued)), glued, alike)
+        return cls(**assembled(checked_lengths(lengths, len(glued)), glued, alike))
 
     @classmethod
     def from_squares(cls, gluing: Iterable[Sequence[Sequence[int]]], n: int = 1) -> DeltaComplex:
@@ -266,10 +263,68 @@ class DeltaComplex(ReadOnlyArrays):
         (4, 12, 8, 1)
         """
         lengths, twin = squares(gluing, n)
-        K = _assemble(lengths, twin, np.zeros(twin.shape, dtype=bool))
+        K = cls(**assembled(lengths, twin, np.zeros(twin.shape, dtype=bool)))
         diagonal = (K.lengths > 1.2 / n).astype(np.int64)
         squared = [root_of(Fraction(1, n * n)), root_of(Fraction(2, n * n))]
         return replace(K, exact_lengths=by_kind(K.edge, diagonal, squared))
+
+    @classmethod
+    def from_polygons(
+        cls, polygons: Iterable[Any], gluing: Iterable[Any], *, edges: bool = False
+    ) -> DeltaComplex:
+        """Glue polygons of the plane along their sides, by rotations and translations.
+
+        Parameters
+        ----------
+        polygons : iterable of lists of points
+            The vertices of each simple polygon, convex or not: complex numbers or pairs (x, y) of
+            what :mod:`igl_periods.complexes.number_readers` reads.  Clockwise ones are turned
+            round: side k is the one from vertex k to k + 1 as they were listed.
+        gluing : iterable of ((polygon, side), (polygon, side))
+        edges : bool
+            The points are not vertices but the sides, as vectors one after the other.
+
+        Raises
+        ------
+        ComplexError
+            If a polygon crosses or touches itself, has no area or does not close; a side is glued
+            twice, to itself, or not at all; glued sides have different lengths (exactly; by more
+            than 1e-9, relative, where coordinates are doubles); the surface is not connected.
+
+        Examples
+        --------
+        >>> from igl_periods import algebraic_number
+        >>> t = algebraic_number([-1, -1, 1], 1.6)
+        >>> L = DeltaComplex.from_polygons(
+        ...     [[0, 1, t, (t, 1), (1, 1), (1, t), (0, t), (0, 1)]],
+        ...     [((0, 0), (0, 5)), ((0, 1), (0, 3)), ((0, 2), (0, 7)), ((0, 4), (0, 6))])
+        >>> L.genus
+        2
+        """
+        glued, lengths, twin = glued_polygons(polygons, gluing, edges)
+        K = cls(**assembled(lengths, twin, np.zeros(twin.shape, dtype=bool)), polygons=glued)
+        return replace(K, exact_lengths=lengths_of_polygons(glued, K.edge))
+
+    @classmethod
+    def from_json(cls, text: str | Mapping[str, Any]) -> DeltaComplex:
+        """Read a surface that :meth:`to_json` wrote, or any ``{"lengths": …, "twin": …}``.
+
+        Raises
+        ------
+        MeshError
+            If the text is no JSON of that form.
+        ComplexError
+            If the gluing is none.
+        """
+        return surface_in_document(cls, text)
+
+    def to_json(self) -> str:
+        """Write the gluing, with exact lengths and polygons, as JSON text.
+
+        Exact numbers are strings; numbers that are functions of the precision are balls of 200
+        digits.
+        """
+        return json.dumps(document_of(self))
 
     @property
     def n_faces(self) -> int:
@@ -299,88 +354,21 @@ class DeltaComplex(ReadOnlyArrays):
 
     def components(self) -> list[DeltaComplex]:
         """The connected components, in the order of their first faces."""
-        n, label = face_components(self.twin)
-        if n == 1:
-            return [self]
-        # Sorted once: with a thousand components, a mask of all faces for each would take seconds.
-        faces = np.argsort(label, kind="stable")
-        sizes = np.bincount(label)
-        starts = np.cumsum(sizes) - sizes
-        new_face = np.empty(faces.size, dtype=np.int64)
-        new_face[faces] = np.arange(faces.size) - np.repeat(starts, sizes)
-        parts = sorted(np.split(faces, starts[1:]), key=lambda part: int(part[0]))
-        return [_restricted(self, part, new_face) for part in parts]
-
-
-def _assemble(
-    lengths: Floats, twin: Ints, same: NDArray[np.bool_], corner_vertex: Ints | None = None
-) -> DeltaComplex:
-    """Number edges and vertices, average glued lengths, mollify."""
-    first = first_half(twin)
-    half_edge = np.flatnonzero(first)
-    edge = np.empty(twin.size, dtype=np.int64)
-    edge[half_edge] = np.arange(half_edge.size)
-    second = np.flatnonzero(~first)
-    edge[second] = edge[twin.ravel()[second]]
-    sign = np.where(first | same.ravel(), 1, -1).astype(np.int8)
-    if corner_vertex is None:
-        corner_vertex, n_vertices = corner_vertices(twin, same)
-    else:
-        n_vertices = int(corner_vertex.max()) + 1
-    check_scale(lengths)
-    lengths, delta = mollify(_glued_lengths(lengths, twin))
-    return DeltaComplex(
-        lengths=lengths,
-        twin=twin,
-        edge=edge.reshape(-1, 3),
-        sign=sign.reshape(-1, 3),
-        corner_vertex=corner_vertex,
-        n_vertices=n_vertices,
-        n_edges=half_edge.size,
-        labels=np.arange(n_vertices),
-        mollification=delta,
-    )
+        return parts_of(self)
 
 
 def _from_simplicial(lengths: Floats, faces: Ints, positions: Floats | None) -> DeltaComplex:
     labels, corner_vertex = compressed(faces)
     twin, same = twins_of_faces(corner_vertex, labels)
     check_fans(twin, same, corner_vertex, labels)
-    K = _assemble(lengths, twin, same, corner_vertex)
+    K = DeltaComplex(**assembled(lengths, twin, same, corner_vertex))
     return replace(K, labels=labels, positions=None if positions is None else positions[labels])
 
 
 def _quotient(V: Floats, F: Ints, lattice: ArrayLike, tolerance: float) -> DeltaComplex:
     glued = lattice_gluing(V, F, lattice, tolerance)
     logger.info("the lattice glued %d edges, gap %.2g", glued.n_glued, glued.gap)
-    K = _assemble(glued.lengths, glued.twin, glued.same)
+    K = DeltaComplex(**assembled(glued.lengths, glued.twin, glued.same))
     labels = np.full(K.n_vertices, len(V), dtype=np.int64)
     np.minimum.at(labels, K.corner_vertex, F)
     return replace(K, labels=labels)
-
-
-def _restricted(K: DeltaComplex, chosen: Ints, new_face: Ints) -> DeltaComplex:
-    """The subcomplex of the chosen faces, a union of components, which get new numbers."""
-    old = K.twin[chosen]
-    twin = np.where(old >= 0, 3 * new_face[old // 3] + old % 3, -1)
-    reversing = (old >= 0) & (K.sign[chosen] == K.sign.ravel()[old])
-    vertices, corner_vertex = compressed(K.corner_vertex[chosen])
-    part = _assemble(K.lengths[chosen], twin, reversing, corner_vertex)
-    return replace(
-        part,
-        labels=K.labels[vertices],
-        positions=None if K.positions is None else K.positions[vertices],
-        mollification=K.mollification,
-        distortion=None if K.distortion is None else K.distortion[chosen],
-    )
-
-
-def _glued_lengths(lengths: Floats, twin: Ints) -> Floats:
-    """Lengths made equal on glued sides, where they may differ by rounding."""
-    other = lengths.ravel()[twin]
-    if twin.min() < 0:
-        other = np.where(twin >= 0, other, lengths)
-    if np.array_equal(other, lengths):
-        return lengths
-    check_equal_when_glued(lengths, twin, "lengths")
-    return 0.5 * (lengths + other)

@@ -55,7 +55,15 @@ def with_edge_lengths(K: DeltaComplex, lengths: ArrayLike) -> DeltaComplex:
             f"{broken[0]}, with the sides {sides[broken[0]].tolist()}, by {-slack:.3g}. Take a "
             "smaller step."
         )
-    return replace(K, lengths=sides, positions=None, mollification=0.0, distortion=None)
+    return replace(
+        K,
+        lengths=sides,
+        positions=None,
+        mollification=0.0,
+        distortion=None,
+        exact_lengths=None,
+        polygons=None,
+    )
 
 
 def with_positions(K: DeltaComplex, positions: ArrayLike) -> DeltaComplex:

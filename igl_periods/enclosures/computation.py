@@ -34,7 +34,7 @@ from igl_periods.topology import cochains_and_basis
 from .cells import Cells, cells_of
 from .conforming_forms import dirichlet_enclosure
 from .degrees import first_sizes, next_goal, next_sizes, node_counts
-from .delaunay_moves import improve_shapes, make_delaunay
+from .delaunay_moves import improve_shapes, insert_centres, make_delaunay
 from .enclosure import PeriodEnclosure
 from .exact_lengths import checked_balls
 from .float_energies import float_dirichlet_enclosure
@@ -170,6 +170,7 @@ def _cut(
         with flint.ctx.workprec(bits):
             triangulation = Triangulation.of(K, checked_balls(lengths, K, bits), cochains)
             make_delaunay(triangulation)
+            insert_centres(triangulation)
             few = digits <= _DIGITS_IN_FLOATS
             improve_shapes(triangulation, _RATIO_FOR_FEW_DIGITS if few else _RATIO)
             cells = cells_of(triangulation)

@@ -15,7 +15,7 @@ import flint
 import numpy as np
 
 from igl_periods.arrays import Floats, Ints
-from igl_periods.complexes import cotangents
+from igl_periods.complexes import components_of, cotangents
 
 from .triangulation import Triangulation, following
 
@@ -27,6 +27,8 @@ _SMALL_TOTAL = 1.3
 # Barycentric coordinates of new vertices are at least the first number, and multiples of 1 over the
 # second.
 _CLOSE, _FINE = 0.06, 2**12
+# Cells of so many triangles get a vertex at their centres.
+FEWEST = 4
 
 
 def make_delaunay(surface: Triangulation, suspects: list[int] | None = None) -> None:
@@ -105,6 +107,37 @@ def improve_shapes(surface: Triangulation, largest_ratio: float) -> int:
         surface.insert(worst, _place(angle[worst], lengths[worst]))
         make_delaunay(surface, [3 * worst, first, first + 3])
     return most
+
+
+def insert_centres(surface: Triangulation, fewest: int = FEWEST) -> int:
+    """Put a vertex at the centre of large regular cells, and flip edges; in place.
+
+    Delaunay triangles at edges that are cocircular make up one cell, a polygon with its corners on
+    a circle.  Its triangles are as thin as one likes, and long diagonals pass close to its centre:
+    cells of so many triangles or more are divided about a vertex there instead.
+
+    Returns
+    -------
+    int
+        The number of new vertices.
+    """
+    lengths = surface.lengths_in_floats()
+    cot = cotangents(lengths).ravel()
+    twin = np.array(surface.twin)
+    across = np.flatnonzero((np.arange(twin.size) < twin) & (np.abs(cot + cot[twin]) < _TOLERANCE))
+    _, label = components_of(across // 3, twin[across] // 3, surface.n_faces)
+    size = np.bincount(label)
+    angle = _angles(lengths)
+    inserted = 0
+    for cell in np.flatnonzero(size >= fewest):
+        faces = np.flatnonzero(label == cell)
+        # The triangle that contains the centre, or comes closest to it, has the least large angle.
+        f = int(faces[angle[faces].max(axis=1).argmin()])
+        first = len(surface.twin)
+        surface.insert(f, _place(angle[f], lengths[f]))
+        make_delaunay(surface, [3 * f, first, first + 3])
+        inserted += 1
+    return inserted
 
 
 def _shortest_at_vertices(lengths: Floats, corner_vertex: Ints) -> Floats:

@@ -20,6 +20,7 @@ face: a Gram matrix of explicit closed forms.  So :math:`D \ge D_{exact}` whatev
 ``linear_forms``        gradients on blocks of faces, and sums of their products
 ``grouped_sums``        sums of many terms, with little rounding
 ``energies``            D, with few functions held at a time
+``residual_energies``   D of very many forms, from the residuals of their equations
 ``harmonic_cochains``   harmonic forms as values on edges
 ``constant_forms``      forms that are constant on every triangle
 ``excess``              where on the surface the bound of the period matrix originates
@@ -41,11 +42,13 @@ from .energies import (
     dirichlet_matrix,
     harmonic_energies,
     harmonic_problem,
+    harmonic_problem_of_many,
     HarmonicProblem,
     linear_energies,
     panels_of_columns,
     weighted_energies,
 )
+from .residual_energies import energies_from_residuals
 from .linear_forms import Jumps, LinearForms, blocks, gram_matrix
 from .harmonic_cochains import (
     checked_basis,
@@ -69,7 +72,9 @@ from .rounding import (
     energy_factor,
     TRIANGLE_ERROR,
     ULP,
+    absolute_inverse,
     allowance_for_loss,
+    amplified,
     extreme_sensitivity,
     geometric_allowance,
 )
@@ -88,6 +93,8 @@ __all__ = [
     "dirichlet_matrix",
     "harmonic_energies",
     "harmonic_problem",
+    "harmonic_problem_of_many",
+    "energies_from_residuals",
     "HarmonicProblem",
     "linear_energies",
     "panels_of_columns",
@@ -114,7 +121,9 @@ __all__ = [
     "energy_excess",
     "energy_factor",
     "most_of",
+    "absolute_inverse",
     "allowance_for_loss",
+    "amplified",
     "extreme_sensitivity",
     "geometric_allowance",
     "TRIANGLE_ERROR",

@@ -12,6 +12,7 @@ Chen, Davis, Hager, Rajamanickam, "Algorithm 887: CHOLMOD" (2008).
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -64,14 +65,34 @@ def factor(lower: csc_matrix) -> CholeskyFactor:
 def solve(factor: CholeskyFactor, load: Floats | csc_array, out: Floats | None = None) -> Floats:
     """The solution of A x = ``load`` for each of its columns; (n, k), into ``out`` if given."""
     solution = np.empty(load.shape) if out is None else out
-    if factor._factor is None:
-        return solution
+    for columns, _, part in solved_panels(factor, load):
+        solution[:, columns] = part
+    return solution
+
+
+def solved_panels(
+    factor: CholeskyFactor, load: Floats | csc_array, first: int = 0
+) -> Iterator[tuple[slice, Floats, Floats]]:
+    """Some columns at a time: which, ``load`` there, and the solution of A x = ``load[first:]``.
+
+    Yields
+    ------
+    columns : slice
+    part : (n + first, j) float
+        ``load[:, columns]``, dense.
+    solution : (n, j) float
+    """
     k = load.shape[1]
     for start in range(0, k, _SOLVES_AT_ONCE):
         progress("equations", start, k)
         columns = slice(start, min(start + _SOLVES_AT_ONCE, k))
         part = load[:, columns]
         dense = part if isinstance(part, np.ndarray) else part.toarray(order="F")
-        with without_lost_threads():
-            solution[:, columns] = factor._factor(dense)
-    return solution
+        yield columns, dense, _solution(factor, dense[first:])
+
+
+def _solution(factor: CholeskyFactor, load: Floats) -> Floats:
+    if factor._factor is None:
+        return np.empty(load.shape)
+    with without_lost_threads():
+        return np.asarray(factor._factor(load))

@@ -20,7 +20,7 @@ smaller:  Dirichlet's principle holds for it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.sparse import csc_array, csc_matrix, csr_array
@@ -32,10 +32,13 @@ from .cholmod import CholeskyFactor
 from .laplace_matrix import lower_laplacian, outflow
 from .linear_forms import Jumps, LinearForms, WeightedFaces, blocks, gram_matrix, mutual_energies
 from .potentials import factored, solutions
+from .residual_energies import ResidualProblem, residual_problem
 from .rounding import allowance_for_loss, extreme_sensitivity
 
 # Columns of a panel at least, whatever the memory.
 _NARROWEST = 32
+# From so many forms on, products of all with all cost more than the residuals of their equations.
+_MANY_FORMS = 64
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,6 +53,9 @@ class HarmonicProblem:
         All faces; those of extreme sensitivity to rounding, with it as weight.
     jumps, extreme_jumps : Jumps
         The cochains on both.
+    residuals : ResidualProblem, optional
+        Where there are so many forms that their energies are better had from residuals
+        (:func:`harmonic_problem_of_many`).
     """
 
     sources: csc_array
@@ -57,6 +63,7 @@ class HarmonicProblem:
     extreme: WeightedFaces
     jumps: Jumps
     extreme_jumps: Jumps
+    residuals: ResidualProblem | None = None
 
     def forms(self, columns: slice, factor: CholeskyFactor) -> tuple[LinearForms, LinearForms]:
         """Some of the harmonic forms c + df, on all faces and on the extreme ones."""
@@ -85,6 +92,19 @@ def harmonic_problem(K: DeltaComplex, cochains: csr_array) -> tuple[csc_matrix, 
     if cochains.shape[0] == 0:
         return csc_matrix((0, 0)), problem
     return lower_laplacian(K.n_vertices, tail, head, rho, 1), problem
+
+
+def harmonic_problem_of_many(
+    K: DeltaComplex, cochains: csr_array
+) -> tuple[csc_matrix, HarmonicProblem]:
+    """The same as :func:`harmonic_problem`, with residuals if there are many forms."""
+    laplacian, problem = harmonic_problem(K, cochains)
+    if cochains.shape[0] < _MANY_FORMS:
+        return laplacian, problem
+    residuals = residual_problem(
+        K, cochains, problem.sources, problem.extreme, problem.extreme_jumps
+    )
+    return laplacian, replace(problem, residuals=residuals)
 
 
 def linear_energies(

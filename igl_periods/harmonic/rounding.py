@@ -102,6 +102,17 @@ def allowance_for_loss(D: Floats, loss: Floats) -> float:
     return TRIANGLE_ERROR * (_ORDINARY + _largest_eigenvalue(whole))
 
 
+def absolute_inverse(R: Floats) -> Floats:
+    """|D⁻¹| of D = R Rᵀ, entry by entry; its lower triangle, and 0 above it, as in R."""
+    lower, _ = scipy.linalg.lapack.dpotri(R, lower=1)
+    return np.abs(lower, out=lower)
+
+
+def amplified(lower: Floats, t: Floats) -> float:
+    """By how much an error t tᵀ is larger than D at most: tᵀ |D⁻¹| t, from the lower triangle."""
+    return float(2.0 * (t @ (lower @ t)) - (np.diag(lower) * t) @ t)
+
+
 def _largest_eigenvalue(W: Floats) -> float:
     """The largest eigenvalue of a positive semidefinite matrix, from above and within 5 %, mostly.
 

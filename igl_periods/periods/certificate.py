@@ -10,6 +10,7 @@ floating point, with an allowance for rounding (:class:`WithAllowance`), or in b
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from typing import Any, Protocol
@@ -23,8 +24,9 @@ from igl_periods.errors import ComplexError
 from igl_periods.harmonic import (
     CholeskyFactor,
     HarmonicProblem,
+    energies_from_residuals,
     harmonic_energies,
-    harmonic_problem,
+    harmonic_problem_of_many,
 )
 from igl_periods.run_log import stage
 
@@ -34,6 +36,8 @@ from .solved_forms import SolvedForms
 
 # Where rounding may change energies by more, relative to them, nothing is known of the matrix.
 _LARGEST_ROUNDING = 1.0
+# The part of a bound that energies from residuals may owe to rounding.
+_NEGLIGIBLE = 1e-2
 
 
 class Method(Protocol):
@@ -83,12 +87,21 @@ class WithAllowance:
 
     def problem(self, where: MarkedComplex) -> tuple[csc_matrix, HarmonicProblem]:
         """The grounded Laplacian, and all else that :meth:`linear` needs of the triangulation."""
-        return harmonic_problem(where.complex, where.cochains)
+        return harmonic_problem_of_many(where.complex, where.cochains)
 
     def linear(
         self, problem: HarmonicProblem, factor: CholeskyFactor, memory: float | None
     ) -> PeriodMatrix:
-        """From the harmonic forms that are linear on triangles."""
+        """From the harmonic forms that are linear on triangles.
+
+        Of many forms by residuals first: what these leave open hardly ever counts beside the bound.
+        """
+        many = problem.residuals
+        if many is not None and (memory is None or many.bytes_kept <= memory):
+            with suppress(ComplexError):
+                pm = certified_period_matrix(self.given, *energies_from_residuals(many, factor))
+                if pm.rounding <= _NEGLIGIBLE * (pm.bound or 0.0):
+                    return pm
         return certified_period_matrix(self.given, *harmonic_energies(problem, factor, memory))
 
     def high_order(self, where: MarkedComplex, forms: HighOrderForms) -> PeriodMatrix:

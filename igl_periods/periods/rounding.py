@@ -15,14 +15,22 @@ rounding does to that product.
 from __future__ import annotations
 
 import numpy as np
-import scipy.linalg
 from numpy.typing import NDArray
+from scipy.sparse import csr_array
 
 from igl_periods.arrays import Floats
-from igl_periods.harmonic import TRIANGLE_ERROR, ULP, energy_factor
+from igl_periods.harmonic import (
+    TRIANGLE_ERROR,
+    ULP,
+    absolute_inverse,
+    amplified,
+    energy_factor,
+)
 
 LEAST_ALLOWANCE = 1e-13
 _POWER_STEPS = 30
+# Matrices with a smaller part of entries that are not 0 are multiplied as sparse ones.
+_SPARSE = 0.1
 
 
 def combined(one: float, other: float) -> float:
@@ -38,19 +46,19 @@ def congruence(U: NDArray[np.integer], D: Floats) -> tuple[Floats, float]:
     """
     if len(D) == 0:
         return D.copy(), 0.0
-    A = U.astype(np.float64)
-    sums = np.abs(A).sum(axis=1)
+    A = _matrix(U)
+    sums = np.asarray(np.abs(A).sum(axis=1))
     unit = _unit(float(sums.max()) ** 2 * float(np.abs(D).max()))
     high = unit * np.rint(D / unit)
     changed = A @ high @ A.T + A @ (D - high) @ A.T
     changed = 0.5 * (changed + changed.T)
-    inverse = _absolute_inverse(energy_factor(changed))
-    terms = int(np.count_nonzero(A, axis=1).max())
+    inverse = absolute_inverse(energy_factor(changed))
+    terms = int(np.count_nonzero(U, axis=1).max())
     # The sum is rounded once, and again where it is made symmetric; the second product has so many
     # terms, none above unit / 2.
-    rounded = 2 * _amplified(inverse, np.sqrt(np.diag(changed)))
-    rounded += terms * unit * _amplified(inverse, sums)
-    given = _amplified(_absolute_inverse(energy_factor(D)), np.sqrt(np.diag(D)))
+    rounded = 2 * amplified(inverse, np.sqrt(np.diag(changed)))
+    rounded += terms * unit * amplified(inverse, sums)
+    given = amplified(absolute_inverse(energy_factor(D)), np.sqrt(np.diag(D)))
     return changed, TRIANGLE_ERROR * given + ULP * rounded
 
 
@@ -62,20 +70,14 @@ def algebraic_allowance(R: Floats) -> float:
     """
     if len(R) == 0:
         return 0.0
-    inversion = _amplified(_absolute_inverse(R), np.linalg.norm(R, axis=1))
+    inversion = amplified(absolute_inverse(R), np.linalg.norm(R, axis=1))
     return 4 * len(R) * ULP * (_skew_norm(np.abs(R)) + inversion)
 
 
-def _absolute_inverse(R: Floats) -> Floats:
-    """|D⁻¹|, entry by entry, of D = R Rᵀ."""
-    lower, _ = scipy.linalg.lapack.dpotri(R, lower=1)
-    lower = np.abs(np.tril(lower))
-    return np.asarray(lower + np.tril(lower, -1).T)
-
-
-def _amplified(inverse: Floats, t: Floats) -> float:
-    """By how much an error t tᵀ is larger than D at most: tᵀ |D⁻¹| t."""
-    return float(t @ inverse @ t)
+def _matrix(U: NDArray[np.integer]) -> Floats | csr_array:
+    """U for products, sparse if it is: changes of basis of high genus mostly are 0."""
+    A = U.astype(np.float64)
+    return csr_array(A) if np.count_nonzero(U) < _SPARSE * U.size else A
 
 
 def _skew_norm(R: Floats) -> float:

@@ -12,6 +12,7 @@ and is not imported before.  That happens in a process of its own, which may abo
 ``drawing``            what that process does, with Open3D
 ``drivers``            what Open3D needs of the system
 ``textured_meshes``    OBJ with MTL and PNG, and GLB
+``polygon_drawing``    flat surfaces as polygons in the plane, SVG
 =====================  ========================================================================
 """
 
@@ -27,6 +28,7 @@ from .scenes import (
 )
 from .derivative_scenes import quadratic_scene, sensitivity_scene
 from .rendering import check_display, render, save, show, with_legend
+from .polygon_drawing import render_polygons
 from .textured_meshes import write_glb, write_obj
 
 __all__ = [
@@ -44,6 +46,7 @@ __all__ = [
     "render",
     "save",
     "show",
+    "render_polygons",
     "with_legend",
     "write_glb",
     "write_obj",

@@ -5,7 +5,13 @@ Each function returns a pair ``(V, F)`` or a :class:`~igl_periods.DeltaComplex`,
 some marking, so that they agree with computed ones up to the action of Sp(2g, Z).
 
 ===========================  ======================================================================
-glued squares                ``square_tiled_surface``, ``origami``, ``glued_rectangles``
+glued squares                ``square_tiled_surface``, ``origami``,
+                             ``quaternion_origami``, ``glued_rectangles``
+polygons                     ``regular_polygon``, ``double_polygon``, ``l_shape``,
+                             ``l_shape_period_matrix``, ``weierstrass_prototypes``,
+                             ``prototype_surface``
+billiards                    ``triangle_unfolding``
+covers of the pillowcase     ``pillowcase_cover``
 regular maps                 ``regular_map_surface``, ``regular_map``
 tori                         ``flat_torus``, ``torus_of_revolution``
 Wente's tori                 ``wente_torus``
@@ -21,9 +27,20 @@ very high genus              ``thickened_lattice``, ``menger_sponge``, ``voxel_s
 from .square_tiled import (
     glued_rectangles,
     origami,
+    quaternion_origami,
     square_tiled_period_matrix,
     square_tiled_surface,
 )
+from .veech_surfaces import (
+    double_polygon,
+    l_shape,
+    l_shape_period_matrix,
+    prototype_surface,
+    regular_polygon,
+    weierstrass_prototypes,
+)
+from .triangle_unfoldings import triangle_unfolding
+from .pillowcase_covers import pillowcase_cover
 from .regular_maps import regular_map, regular_map_period_matrix, regular_map_surface
 from .tori import flat_torus, torus_of_revolution, torus_of_revolution_modulus
 from .wente import wente_immersion, wente_modulus, wente_periods, wente_torus
@@ -48,8 +65,17 @@ from .identification import Identification, Match, identify, matrix_of
 __all__ = [
     "glued_rectangles",
     "origami",
+    "quaternion_origami",
     "square_tiled_period_matrix",
     "square_tiled_surface",
+    "regular_polygon",
+    "double_polygon",
+    "l_shape",
+    "l_shape_period_matrix",
+    "weierstrass_prototypes",
+    "prototype_surface",
+    "triangle_unfolding",
+    "pillowcase_cover",
     "regular_map",
     "regular_map_period_matrix",
     "regular_map_surface",

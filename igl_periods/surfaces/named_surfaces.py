@@ -221,9 +221,16 @@ _SINGLE = (
     ),
     NamedSurface(
         "Fermat quartic",
-        ("x^4 + y^4 + z^4 = 0", "Dyck surface", "regular map {3,8} of genus 3"),
+        (
+            "x^4 + y^4 + z^4 = 0",
+            "Dyck surface",
+            "regular map {3,8} of genus 3",
+            "quaternion origami",
+            "eierlegende Wollmilchsau",
+        ),
         3,
-        "Gaussian multiples of K(1/sqrt 2)/2; recognised in the periods of abelfunctions",
+        "Gaussian multiples of K(1/sqrt 2)/2; recognised in the periods of abelfunctions; "
+        "Herrlich, Schmithüsen (2008) for the origami",
         partial(_regular_map, "fermat"),
         exact.fermat,
     ),

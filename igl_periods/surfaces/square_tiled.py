@@ -34,12 +34,14 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import ArrayLike
 
-from igl_periods.arrays import Complexes
+from igl_periods.arrays import Complexes, Ints
 from igl_periods.complexes import DeltaComplex, by_kind, components_of, root_of, squares
 from igl_periods.errors import ComplexError
 
-from .permutations import checked_permutation
+from .permutations import read_permutations
 
+# More squares than this are glued without their places in the plane.
+_MOST_POLYGONS = 500
 Gluing = list[tuple[tuple[int, int], tuple[int, int]]]
 _GLUINGS: dict[str, Gluing] = {
     "omega_1": [
@@ -93,33 +95,29 @@ def square_tiled_period_matrix(name: str) -> Complexes:
     return _PERIOD_MATRICES[_known(name)].copy()
 
 
-def origami(right: ArrayLike, up: ArrayLike, n: int = 1) -> DeltaComplex:
+def origami(right: str | ArrayLike, up: str | ArrayLike, n: int = 1) -> DeltaComplex:
     """Glue unit squares by translations, as two permutations say.
 
     Parameters
     ----------
-    right, up : (N,) array-like of int
-        The square to the right of square k, and the one above it.
+    right, up : str or (N,) array-like of int
+        The square to the right of square k, and the one above it: cycles counted from 1, as
+        ``"(1,2,3)(4,5)"``, or images counted from 0.
     n : int
         Each square is divided into n × n.
 
     Raises
     ------
     ComplexError
-        If ``right`` and ``up`` are not permutations of the same squares 0, …, N − 1, or leave the
-        surface disconnected, or ``n < 1``.
+        If ``right`` and ``up`` are not permutations of the same squares, or leave the surface
+        disconnected, or ``n < 1``.
 
     Examples
     --------
-    >>> origami([1, 0, 2], [2, 1, 0]).genus
-    2
+    >>> origami("(1,2)", "(1,3)").genus, origami([1, 0, 2], [2, 1, 0]).genus
+    (2, 2)
     """
-    to_right, above = checked_permutation(right, "right"), checked_permutation(up, "up")
-    if to_right.size != above.size:
-        raise ComplexError(
-            f"right permutes {to_right.size} squares and up permutes {above.size}: they must "
-            "permute the same ones."
-        )
+    to_right, above = read_permutations({"right": right, "up": up})
     here = np.arange(above.size)
     n_parts, _ = components_of(np.tile(here, 2), np.concatenate([to_right, above]), here.size)
     if n_parts > 1:
@@ -129,7 +127,52 @@ def origami(right: ArrayLike, up: ArrayLike, n: int = 1) -> DeltaComplex:
         )
     pairs = [((k, 1), (r, 3)) for k, r in enumerate(to_right.tolist())]
     pairs += [((k, 2), (u, 0)) for k, u in enumerate(above.tolist())]
-    return DeltaComplex.from_squares(pairs, n)
+    return placed_squares(_in_rows(to_right), pairs, n)
+
+
+def placed_squares(places: list[tuple[int, int]], gluing: Gluing, n: int) -> DeltaComplex:
+    """Unit squares with these lower left corners, as polygons where they are few and whole."""
+    if n != 1 or len(places) > _MOST_POLYGONS:
+        return DeltaComplex.from_squares(gluing, n)
+    squares = [[(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)] for x, y in places]
+    return DeltaComplex.from_polygons(squares, gluing)
+
+
+def _in_rows(right: Ints) -> list[tuple[int, int]]:
+    """Places of the squares of an origami in the plane: a row for each horizontal cylinder."""
+    place: dict[int, tuple[int, int]] = {}
+    row = 0
+    for start in range(right.size):
+        k, column = start, 0
+        while k not in place:
+            place[k] = column, row
+            k, column = int(right[k]), column + 1
+        row += column > 0
+    return [place[k] for k in range(right.size)]
+
+
+def quaternion_origami(n: int = 1) -> DeltaComplex:
+    """Glue the origami of the quaternion group, the *eierlegende Wollmilchsau*; genus 3.
+
+    Its eight squares are the elements q of the group {±1, ±i, ±j, ±k}; to the right of q lies q i,
+    above it q j.  Four zeros of order 1; its curve is the Fermat quartic.
+
+    Parameters
+    ----------
+    n : int
+        Each square is divided into n × n.
+
+    References
+    ----------
+    Herrlich, Schmithüsen, "An extraordinary origami curve" (2008).
+
+    Examples
+    --------
+    >>> quaternion_origami().genus
+    3
+    """
+    # 1, i, −1, −i, k, j, −k, −j: i·i = −1, k·i = j; i·j = k, j·j = −1.
+    return origami("(1,2,3,4)(5,6,7,8)", "(1,6,3,8)(2,5,4,7)", n)
 
 
 def glued_rectangles(

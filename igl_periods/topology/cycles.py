@@ -8,6 +8,7 @@ and as walks all of them pass the root, so that they can be joined there.
 from __future__ import annotations
 
 import numpy as np
+from scipy.sparse import csr_array
 
 from igl_periods.arrays import Ints
 from igl_periods.complexes import (
@@ -54,7 +55,9 @@ def homology_basis(K: DeltaComplex, root: int = 0) -> list[Ints]:
     M = pairing(K, cochains, cochains)
     T = integer_symplectic_basis(M).astype(np.int64)
     # T M Tᵀ = J, so the dual basis is T⁻ᵀ = J T Mᵀ in terms of the loops dual to the cochains.
-    coefficients = standard_form(len(T) // 2) @ T @ M.T
+    # All three are sparse, and a dense product of integers would take longer than everything else.
+    J, rows = csr_array(standard_form(len(T) // 2)), csr_array(T)
+    coefficients = (J @ rows @ csr_array(M.T)).toarray()
     loops = rooted_loops(K, trees)
     return [_combined(K, loops, row) for row in coefficients]
 

@@ -1,10 +1,11 @@
 import flint
 import numpy as np
+import pytest
 from support.enclosed_surfaces import generic_genus_two, triangulated
 
 from igl_periods.complexes import cotangents, delaunay_flips
-from igl_periods.enclosures.delaunay_moves import fan, make_delaunay
-from igl_periods.surfaces import flat_torus
+from igl_periods.enclosures.delaunay_moves import fan, insert_centres, make_delaunay
+from igl_periods.surfaces import double_polygon, flat_torus, origami, regular_polygon
 
 
 def test_all_edges_are_delaunay_and_agree_with_the_other_implementation():
@@ -30,3 +31,25 @@ def test_fan_walks_once_around_the_vertex():
         assert sorted(corners) == sorted(
             c for c, v in enumerate(surface.corner_vertex) if v == surface.corner_vertex[corner]
         )
+
+
+@pytest.mark.parametrize(("K", "cells"), [(regular_polygon(10), [10]), (double_polygon(7), [7, 7])])
+def test_large_regular_cells_are_divided_about_their_centres(K, cells):
+    surface, _ = triangulated(K)
+    make_delaunay(surface)
+    assert insert_centres(surface) == len(cells)
+    assert (surface.n_faces, surface.n_vertices) == (sum(cells), K.n_vertices + len(cells))
+    corners = np.bincount(surface.corner_vertex)
+    assert corners[K.n_vertices :].tolist() == cells
+    # Spokes are as long as the circumradius of the unit polygon, nearly.
+    spokes = np.sort(surface.lengths_in_floats().ravel())
+    assert np.allclose(spokes[sum(cells) :], 1 / (2 * np.sin(np.pi / cells[0])), rtol=1e-3)
+    cot = cotangents(surface.lengths_in_floats()).ravel()
+    assert (cot + cot[surface.twin] > -1e-8).all()
+
+
+def test_squares_and_triangles_are_left_alone():
+    for K in (origami("(1,2)", "(1,3)", 2), flat_torus(0.5 + 0.75**0.5 * 1j, 3, 2)):
+        surface, _ = triangulated(K)
+        assert insert_centres(surface) == 0
+        assert surface.n_vertices == K.n_vertices

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import igl_periods as ip
-from igl_periods.surfaces.permutations import checked_permutation, composed
+from igl_periods.surfaces.permutations import checked_permutation, composed, read_permutations
 
 
 def test_composition_is_the_product_of_matrices():
@@ -34,3 +34,33 @@ def test_arrays_of_a_wrong_shape_or_type(images):
 def test_images_that_are_not_all_numbers_once(images):
     with pytest.raises(ip.ComplexError, match="up is no permutation of 0, …,"):
         checked_permutation(images, "up")
+
+
+def test_cycles_are_counted_from_1_and_images_from_0():
+    right, up = read_permutations({"right": "(1,2,3)", "up": "(1, 4)"})
+    assert right.tolist() == [1, 2, 0, 3]
+    assert up.tolist() == [3, 1, 2, 0]
+    assert [p.tolist() for p in read_permutations({"a": "(1 2)", "b": [0, 2, 1]})] == [
+        [1, 0, 2], [0, 2, 1],
+    ]  # fmt: skip
+    assert [p.tolist() for p in read_permutations({"a": "", "b": "(2)()(3,1)"})] == [
+        [0, 1, 2], [2, 1, 0],
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"a": "1,2"}, 'a is no product of cycles like "'),
+        ({"a": "(1,2"}, "a is no product of cycles"),
+        ({"a": "(1,,2)"}, "a is no product of cycles"),
+        ({"a": "(0,1)"}, "a names 0, and cycles are counted from 1"),
+        ({"a": "(1,2)(2,3)"}, "a names 2 twice: cycles are disjoint"),
+        ({"a": "(1,1000001)"}, "a names 1000001; up to 1000000"),
+        ({"a": [0, 1], "b": [0, 1, 2]}, "a permutes 2 things and b permutes 3"),
+        ({"a": "(1,4)", "b": [0, 1, 2]}, "b permutes 3 things and a cycle permutes 4"),
+    ],
+)
+def test_texts_that_are_no_permutations(given, message):
+    with pytest.raises(ip.ComplexError, match=message):
+        read_permutations(given)

@@ -227,3 +227,49 @@ def test_a_gluing_that_is_not_orientable_is_refused():
     bottle = ip.DeltaComplex.from_lengths(np.ones(F.shape), F)
     with pytest.raises(ip.ComplexError, match="not orientable"):
         ip.period_matrix(bottle)
+
+
+@pytest.mark.parametrize(
+    ("right", "up", "stratum"),
+    [("(1,2)", "(1,3)", "H(2)"), ("(1,2,3)", "(1,4)", "H(2)"), ("(1,2,3,4)", "(1,4,3,2)", None),
+     ("(1,2,3,4)(5,6,7,8)", "(1,6,3,8)(2,5,4,7)", "H(1, 1, 1, 1)"),
+     ("(1,2,3,4,5)", "(1,3)(2,5)", None)],
+)  # fmt: skip
+def test_the_commutator_of_an_origami_is_its_stratum(right, up, stratum):
+    from igl_periods.surfaces.permutations import read_permutations
+
+    r, u = read_permutations({"right": right, "up": up})
+    # Around the upper right corner of a square: right, up, left, down.
+    commutator = np.argsort(u)[np.argsort(r)[u[r]]]
+    left, orders = set(range(r.size)), []
+    while left:
+        start = k = left.pop()
+        order = 0
+        while (k := int(commutator[k])) != start:
+            left.discard(k)
+            order += 1
+        orders += [order] if order else []
+    found = ip.flat_surface_report(origami(right, up))
+    assert found.orders == tuple(sorted(orders, reverse=True))
+    assert 2 * found.genus - 2 == sum(orders)
+    assert stratum in (None, found.stratum)
+    assert float(found.area) == pytest.approx(r.size)
+
+
+def test_the_quaternion_origami_is_the_fermat_quartic():
+    from igl_periods.surfaces import quaternion_origami
+
+    found = ip.identify(ip.enclose(quaternion_origami(), digits=11))
+    assert found[0].surface.name == "Fermat quartic"
+
+
+def test_few_squares_are_polygons_and_many_are_the_same_surface():
+    one, four = origami("(1,2)", "(1,3)"), origami("(1,2)", "(1,3)", 2)
+    assert one.polygons is not None
+    assert four.polygons is None
+    assert [p[0] for p in one.polygons.vertices] == [(0, 0), (1, 0), (0, 1)]
+    rotation = np.roll(np.arange(501), 1)
+    K = origami(rotation, rotation)
+    assert K.polygons is None
+    assert K.genus == 1
+    assert ip.symplectic_isomorphisms(ip.period_matrix(one), ip.period_matrix(four), tolerance=0.1)
