@@ -24,9 +24,12 @@ page.  In reading order:
 ``recognition``    numbers in balls → algebraic numbers, with the evidence
 ``siegel``         Π → γ·Π reduced
 ``moduli``         Π₁, Π₂ → equivalence, symmetries, invariants
+``riemann_theta``  θ(z, Π) with characteristics, spin structures
 ``forms``          the discrete theory of the paper on Λ = Γ ⊕ Γ*
 ``deformations``   Π* → a surface that has it
+``curves``         Π in balls → invariants, the equation of the curve
 ``differentials``  Π on the mesh → holomorphic forms, parametrization, Abel–Jacobi
+``jacobians``      Π → endomorphisms of the Jacobian, and its factors
 ``domains``        domains with holes → capacities and extremal lengths
 ``surfaces``       reference surfaces, their exact Π, and which of them a Π is
 ``pictures``, ``reports``, ``cli``, ``batch``, ``distributed``, ``machine``
@@ -43,6 +46,7 @@ from . import forms, genus_two, surfaces
 from .errors import (
     BatchError,
     ComplexError,
+    CurveError,
     EnumerationLimitError,
     MemoryLimitError,
     MeshError,
@@ -113,6 +117,7 @@ from .moduli import (
     theta_constants,
     theta_derivatives,
 )
+from .riemann_theta import SpinStructure, spin_structures, theta
 from .forms import (
     DoubleGraph,
     double_graph,
@@ -121,12 +126,32 @@ from .forms import (
     symplectic_mean_forms,
 )
 from .differentials import (
+    FormZeros,
     abel_jacobi,
+    divisor_class,
     evenness,
     form_of_periods,
     form_of_real_periods,
+    form_zeros,
     most_even_form,
     parametrize,
+)
+from .jacobians import (
+    EigenformRing,
+    EndomorphismRing,
+    JacobianFactors,
+    eigenform_ring,
+    endomorphisms,
+    jacobian_factors,
+)
+from .curves import (
+    AlgebraicCurve,
+    curve,
+    curve_of_form,
+    to_latex,
+    to_magma,
+    to_pari,
+    to_sage,
 )
 from .domains import (
     CapacityEnclosure,
@@ -214,6 +239,16 @@ __all__ = [
     "theta_derivatives",
     "hyperelliptic_point",
     "is_hyperelliptic",
+    "curve",
+    "curve_of_form",
+    "AlgebraicCurve",
+    "to_latex",
+    "to_sage",
+    "to_magma",
+    "to_pari",
+    "theta",
+    "SpinStructure",
+    "spin_structures",
     "recognize",
     "AlgebraicNumber",
     "RecognisedMatrix",
@@ -224,6 +259,13 @@ __all__ = [
     "Identification",
     "catalogue",
     "surfaces",
+    # Jacobians
+    "endomorphisms",
+    "EndomorphismRing",
+    "eigenform_ring",
+    "EigenformRing",
+    "jacobian_factors",
+    "JacobianFactors",
     # surfaces with the period matrix that one wants
     "deform_to",
     "lengths_with",
@@ -242,6 +284,9 @@ __all__ = [
     "holomorphic_forms",
     "symplectic_mean_forms",
     "abel_jacobi",
+    "divisor_class",
+    "form_zeros",
+    "FormZeros",
     "form_of_periods",
     "form_of_real_periods",
     "most_even_form",
@@ -251,6 +296,7 @@ __all__ = [
     "PeriodsError",
     "MeshError",
     "ComplexError",
+    "CurveError",
     "NotASiegelPointError",
     "MemoryLimitError",
     "MissingExtraError",

@@ -6,6 +6,7 @@
     ├── MeshError                  what was handed over is no triangulated surface      ValueError
     ├── ComplexError               … no surface with a period matrix                    ValueError
     ├── NotASiegelPointError       … no point of the Siegel upper half-space            ValueError
+    ├── CurveError                 … no Jacobian of a curve that is found here          ValueError
     ├── NotPositiveDefiniteError   … no positive definite matrix                        ValueError
     ├── MemoryLimitError           it would take more memory than there may be          ValueError
     ├── MissingExtraError          packages of an extra are missing          ImportError, ValueError
@@ -35,6 +36,10 @@ class ComplexError(PeriodsError, ValueError):
 
 class NotASiegelPointError(PeriodsError, ValueError):
     """A matrix outside the Siegel upper half-space: asymmetric, or Im not positive definite."""
+
+
+class CurveError(PeriodsError, ValueError):
+    """A period matrix of no curve, a product for instance, or of none that is known well enough."""
 
 
 class NotPositiveDefiniteError(PeriodsError, ValueError):

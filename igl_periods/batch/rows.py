@@ -36,7 +36,15 @@ from typing import Any
 from igl_periods.complexes import DeltaComplex, as_complex
 from igl_periods.errors import ComplexError
 from igl_periods.machine import one_thread
-from igl_periods.meshes import MeshReport, components_by_genus, read_surface, surface_of, way_out
+from igl_periods.meshes import (
+    WELD,
+    MeshReport,
+    checked_repair,
+    components_by_genus,
+    read_surface,
+    surface_of,
+    way_out,
+)
 from igl_periods.moduli import (
     absolute_igusa_invariants,
     certified_j_invariant,
@@ -46,6 +54,7 @@ from igl_periods.options import checked_switch
 from igl_periods.periods import (
     PeriodMatrix,
     ToleranceWarning,
+    checked_limits,
     checked_options,
     period_matrix,
     reduced_if_feasible,
@@ -84,7 +93,8 @@ COLUMNS: dict[str, Any] = {
 }
 # The kind of error of a file on which workers died.
 DIED = "WorkerDied"
-_SWITCHES = ("repair", "double", "delaunay")
+_SWITCHES = ("repair", "double", "delaunay", "rigorous")
+_OF_MESH = ("repair", "weld", "largest_hole")
 _BYTES_AT_ONCE = 2**20
 
 
@@ -94,10 +104,13 @@ class BatchOptions:
 
     Attributes
     ----------
-    repair, double : bool
-        Repair meshes; take the doubles of the surfaces.
-    weights, delaunay, degree, tolerance, rigorous
-        As in :func:`~igl_periods.period_matrix`.
+    repair, weld, largest_hole
+        As in :func:`~igl_periods.load_mesh`.
+    double : bool
+        Take the doubles of the surfaces.
+    weights, delaunay, degree, tolerance, rigorous, max_memory
+        As in :func:`~igl_periods.period_matrix`; the limit is that of one file, and where none is
+        given a file is refused when the memory that is free at the time does not suffice.
 
     Raises
     ------
@@ -106,28 +119,44 @@ class BatchOptions:
     """
 
     repair: bool = False
+    weld: float = WELD
+    largest_hole: int = 0
     double: bool = False
     weights: str = "intrinsic"
     delaunay: bool = True
     degree: int = 1
     tolerance: float | None = None
     rigorous: bool = False
+    max_memory: float | None = None
 
     def __post_init__(self) -> None:
         degree, tolerance = checked_options(
             self.weights, self.degree, self.tolerance, self.rigorous
         )
-        checked = {name: checked_switch(name, getattr(self, name)) for name in _SWITCHES}
-        for name, value in {**checked, "degree": degree, "tolerance": tolerance}.items():
+        weld, largest_hole = checked_repair(self.weld, self.largest_hole)
+        _, max_memory = checked_limits(None, self.max_memory)
+        checked = {
+            **{name: checked_switch(name, getattr(self, name)) for name in _SWITCHES},
+            "weld": weld,
+            "largest_hole": largest_hole,
+            "degree": degree,
+            "tolerance": tolerance,
+            "max_memory": max_memory,
+        }
+        for name, value in checked.items():
             object.__setattr__(self, name, value)
 
     def as_json(self) -> str:
         """All options, in one order."""
         return json.dumps(asdict(self))
 
+    def of_mesh(self) -> dict[str, Any]:
+        """The keywords of :func:`~igl_periods.load_mesh`."""
+        return {name: getattr(self, name) for name in _OF_MESH}
+
     def of_period_matrix(self) -> dict[str, Any]:
         """The keywords of :func:`~igl_periods.period_matrix`."""
-        return {k: v for k, v in asdict(self).items() if k not in ("repair", "double")}
+        return {k: v for k, v in asdict(self).items() if k not in (*_OF_MESH, "double")}
 
 
 def rows_of(
@@ -201,7 +230,7 @@ def _computed(
     """The rows without what is common to them."""
     first: Row = {}
     try:
-        surface, report = read_surface(path, options.repair)
+        surface, report = read_surface(path, **options.of_mesh())
         first["mesh_report"] = report and _report_as_json(report, name)
         parts = components_by_genus(surface_of(as_complex(*surface), options.double))
         _check_pieces(parts, report)

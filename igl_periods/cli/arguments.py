@@ -25,7 +25,8 @@ from igl_periods.run_log import stage
 from .parser import Parser, refuse_without_effect
 
 ALL = "all"
-# The options of :func:`~igl_periods.period_matrix`, as attributes.
+# The options of :func:`~igl_periods.load_mesh`, and those of :func:`~igl_periods.period_matrix`.
+REPAIR_OPTIONS = ("repair", "weld", "fill_holes")
 PERIOD_OPTIONS = ("weights", "delaunay", "degree", "tolerance", "rigorous")
 
 # What :meth:`argparse.ArgumentParser.add_subparsers` returns.
@@ -44,9 +45,8 @@ def add_surface_arguments(command: Parser, several: bool = False) -> None:
         metavar="MESH",
         help="a mesh (OBJ, OFF, PLY, STL, 3MF, glTF, …), or a gluing of triangles (.json)",
     )
-    command.checks.append(_check_repair)
     add_reading_arguments(command)
-    add_repair_arguments(command)
+    add_double_argument(command)
     add_lattice_argument(command)
     command.add_argument(
         "--component",
@@ -58,22 +58,13 @@ def add_surface_arguments(command: Parser, several: bool = False) -> None:
 
 
 def add_reading_arguments(command: Parser) -> None:
-    """Add what is done to every mesh before anything is computed."""
+    """Add how a mesh is read and repaired; how far a repair goes implies it."""
+    command.checks.append(_check_repair)
     command.add_argument(
         "--repair",
         action="store_true",
         help="weld, drop, orient and split what keeps the mesh from being a surface",
     )
-    command.add_argument(
-        "--double",
-        action="store_true",
-        help="take the double of a surface with boundary or without an orientation",
-    )
-    command.add_argument("--quiet", action="store_true", help="no progress on the terminal")
-
-
-def add_repair_arguments(command: Parser) -> None:
-    """Add how far a repair goes; each of them implies it."""
     command.add_argument(
         "--weld",
         type=_part,
@@ -86,6 +77,16 @@ def add_repair_arguments(command: Parser) -> None:
         type=_size,
         metavar="SIZE",
         help="repair, and fill holes of at most SIZE edges",
+    )
+    command.add_argument("--quiet", action="store_true", help="no progress on the terminal")
+
+
+def add_double_argument(command: Parser) -> None:
+    """Add the double of what was read."""
+    command.add_argument(
+        "--double",
+        action="store_true",
+        help="take the double of a surface with boundary or without an orientation",
     )
 
 
@@ -152,15 +153,15 @@ def add_json_argument(command: Parser) -> None:
 
 def add_output_argument(command: Parser, what: str, *suffixes: str) -> None:
     """Add the file that a command writes: its name is checked here, its place in :func:`claim`."""
+    known = " or ".join(suffixes)
 
     def output(text: str) -> str:
         if Path(text).suffix.lower() not in suffixes:
-            known = " or ".join(suffixes)
             raise argparse.ArgumentTypeError(f"{what} has a name in {known}, not {text!r}")
         return text
 
     command.add_argument(
-        "-o", "--output", required=True, type=output, metavar="FILE", help=f"{what} ({suffixes[0]})"
+        "-o", "--output", required=True, type=output, metavar="FILE", help=f"{what} ({known})"
     )
 
 
@@ -178,8 +179,19 @@ def reading_options(options: argparse.Namespace) -> dict[str, Any]:
 
 def computed(K: DeltaComplex, options: argparse.Namespace) -> PeriodMatrix:
     """The period matrix of a surface as it was asked for."""
-    limit = {} if options.max_memory is None else {"max_memory": 1e9 * options.max_memory}
-    return period_matrix(K, **chosen_options(options), **limit)
+    return period_matrix(K, **chosen_options(options), max_memory=memory_limit(options))
+
+
+def memory_limit(options: argparse.Namespace) -> float | None:
+    """The limit of memory in bytes; None if nothing was said."""
+    return None if options.max_memory is None else 1e9 * options.max_memory
+
+
+def repair_options(options: argparse.Namespace) -> dict[str, Any]:
+    """The keywords of :func:`~igl_periods.load_mesh`: how far a repair goes implies it."""
+    how = {"weld": options.weld, "largest_hole": options.fill_holes}
+    chosen = {name: value for name, value in how.items() if value is not None}
+    return {"repair": options.repair or bool(chosen), **chosen}
 
 
 def _check_period_options(command: Parser, options: argparse.Namespace) -> None:
@@ -190,10 +202,10 @@ def _check_period_options(command: Parser, options: argparse.Namespace) -> None:
 
 
 def _check_repair(command: Parser, options: argparse.Namespace) -> None:
-    meshes = getattr(options, "meshes", None) or [options.mesh]
+    meshes = options.meshes if "meshes" in options else [options.mesh]
     if all(Path(mesh).suffix.lower() == ".json" for mesh in meshes):
         why = "on gluings of triangles (.json), which are taken as they are"
-        refuse_without_effect(command, options, ("repair", "weld", "fill_holes"), why)
+        refuse_without_effect(command, options, REPAIR_OPTIONS, why)
 
 
 def read_surfaces(options: argparse.Namespace) -> tuple[list[DeltaComplex], MeshReport | None]:
@@ -226,10 +238,8 @@ def read_complex(options: argparse.Namespace) -> tuple[DeltaComplex, MeshReport 
     ValueError
         If it is no surface, with the way out and the report.
     """
-    how = {"weld": options.weld, "largest_hole": options.fill_holes}
-    chosen = {name: value for name, value in how.items() if value is not None}
     with stage("reading the file"):
-        surface, report = read_surface(options.mesh, options.repair or bool(chosen), **chosen)
+        surface, report = read_surface(options.mesh, **repair_options(options))
     try:
         if options.lattice is not None:
             return DeltaComplex.from_mesh(*surface, lattice=options.lattice), report

@@ -13,10 +13,14 @@ from igl_periods.machine import require
 
 from .arguments import (
     Commands,
+    add_double_argument,
+    add_memory_argument,
     add_output_argument,
     add_period_arguments,
     add_reading_arguments,
     chosen_options,
+    memory_limit,
+    repair_options,
 )
 from .terminal import refused, say
 
@@ -40,7 +44,7 @@ def add_batch(commands: Commands) -> None:
         "cannot be used, 2 wrong usage, 130 interrupted.",
     )
     batch.add_argument(
-        "sources",
+        "meshes",
         nargs="+",
         metavar="DIR | LIST | MESH",
         help="a folder, searched for meshes and gluings with all folders in it; a text file with "
@@ -48,7 +52,9 @@ def add_batch(commands: Commands) -> None:
     )
     add_output_argument(batch, "a table", ".parquet", ".csv")
     add_reading_arguments(batch)
+    add_double_argument(batch)
     add_period_arguments(batch)
+    add_memory_argument(batch)
     where = batch.add_mutually_exclusive_group()
     where.add_argument(
         "--workers",
@@ -76,7 +82,12 @@ def _batch(options: argparse.Namespace) -> int:
     from igl_periods.batch import BatchOptions
     from igl_periods.errors import BatchError
 
-    chosen = BatchOptions(options.repair, options.double, **chosen_options(options))
+    chosen = BatchOptions(
+        **repair_options(options),
+        double=options.double,
+        **chosen_options(options),
+        max_memory=memory_limit(options),
+    )
     try:
         result = _run(options, chosen)
     except BatchError as error:
@@ -94,7 +105,7 @@ def _batch(options: argparse.Namespace) -> int:
 def _run(options: argparse.Namespace, chosen: BatchOptions) -> BatchResult:
     from igl_periods.batch import find_files, remote_cluster, run_batch
 
-    files = find_files(*options.sources)
+    files = find_files(*options.meshes)
     cluster = remote_cluster(options.scheduler) if options.scheduler else nullcontext(None)
     with cluster as client, _progress(options.quiet) as progress:
         return run_batch(

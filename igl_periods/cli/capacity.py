@@ -14,12 +14,13 @@ from igl_periods.errors import MeshError
 from igl_periods.surfaces import planar_domain
 
 from .arguments import (
+    REPAIR_OPTIONS,
     Commands,
     add_lattice_argument,
     add_reading_arguments,
-    add_repair_arguments,
     read_complex,
 )
+from .parser import Parser, refuse_without_effect
 from .terminal import say
 
 _TOLERANCE = 1e-6
@@ -36,8 +37,8 @@ def add_capacity(commands: Commands) -> None:
     command.add_argument(
         "mesh", metavar="MESH", help="a mesh with a boundary, or a polygon with holes (.geojson)"
     )
+    command.checks.append(_check_polygon)
     add_reading_arguments(command)
-    add_repair_arguments(command)
     add_lattice_argument(command)
     command.add_argument(
         "--tolerance",
@@ -51,8 +52,7 @@ def add_capacity(commands: Commands) -> None:
 
 
 def _capacity(options: argparse.Namespace) -> int:
-    is_polygon = options.mesh.lower().endswith(".geojson")
-    K = _domain(options.mesh) if is_polygon else read_complex(options)[0]
+    K = _domain(options.mesh) if _is_polygon(options) else read_complex(options)[0]
     C = capacity_matrix(K, tolerance=options.tolerance)
     if options.json:
         say(json.dumps(_document(C), indent=1))
@@ -61,6 +61,16 @@ def _capacity(options: argparse.Namespace) -> int:
     for k, loop in enumerate(C.loops):
         say(f"loop {k + 1}: {loop!r}, length {loop.length:.6g}")
     return 0
+
+
+def _is_polygon(options: argparse.Namespace) -> bool:
+    return str(options.mesh).lower().endswith(".geojson")
+
+
+def _check_polygon(command: Parser, options: argparse.Namespace) -> None:
+    if _is_polygon(options):
+        why = "on polygons (.geojson), which are taken as they are"
+        refuse_without_effect(command, options, (*REPAIR_OPTIONS, "lattice"), why)
 
 
 def _domain(path: str) -> DeltaComplex:

@@ -19,6 +19,7 @@ from .arguments import (
     add_memory_argument,
     add_surface_arguments,
     heading,
+    memory_limit,
     mesh_in_words,
     read_surfaces,
     reading_options,
@@ -75,7 +76,7 @@ def _enclosed(K: DeltaComplex, options: argparse.Namespace) -> PeriodEnclosure:
         with_exact_distances(K),
         digits=options.digits,
         max_seconds=options.max_seconds,
-        max_memory=options.max_memory,
+        max_memory=memory_limit(options),
     )
 
 

@@ -18,6 +18,7 @@ from igl_periods.machine import require
 from .batch import add_batch
 from .capacity import add_capacity
 from .compute import add_compute
+from .curve import add_curve
 from .demo import add_demo
 from .enclose import add_enclose
 from .identify import add_identify
@@ -35,6 +36,7 @@ _COMMANDS = (
     add_compute,
     add_enclose,
     add_identify,
+    add_curve,
     add_capacity,
     add_render,
     add_view,

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from igl_periods.arrays import Floats, Ints
+from igl_periods.display import counted
 from igl_periods.errors import ComplexError, MeshError
 
 _GLUED_TOLERANCE = 1e-9
@@ -35,8 +36,8 @@ def check_finite(positions: Floats, faces: Ints) -> None:
     wrong = np.intersect1d(np.flatnonzero(~np.isfinite(positions).all(axis=1)), faces)
     if wrong.size:
         raise MeshError(
-            f"{wrong.size} vertices have coordinates that are NaN or infinite; the first is "
-            f"vertex {wrong[0]}."
+            f"{counted(wrong.size, 'vertex has', 'vertices have')} coordinates that are NaN or "
+            f"infinite; the first is vertex {wrong[0]}."
         )
 
 
@@ -88,9 +89,11 @@ def checked_corners(F: ArrayLike, n_vertices: int | None) -> Ints:
             f"F has negative indices (the least is {low}); vertices are counted from 0."
         )
     if n_vertices is not None and high >= n_vertices:
+        # Faces that are counted from 1 have no 0, and are out of range by one.
+        question = " Are the faces counted from 1?" if low > 0 and high == n_vertices else ""
         raise MeshError(
-            f"F refers to vertex {high}, out of range: V has {n_vertices} rows, counted from 0. "
-            "Are the faces counted from 1?"
+            f"F refers to vertex {high}, out of range: V has {n_vertices} rows, counted from 0."
+            f"{question}"
         )
     if high > np.iinfo(np.int64).max // 2:
         raise MeshError(f"F refers to vertex {high}, which is no sensible index.")

@@ -86,6 +86,11 @@ def lattice_gluing(
     twin, same = twins_of_faces(F, np.arange(len(V)))
     if twin.min() >= 0:
         lengths, n_wrapped = _wrapped_lengths(V, F, L, reach)
+        if n_wrapped == 0:
+            raise MeshError(
+                "the lattice glues nothing: the mesh is closed, and no side of it reaches across "
+                f"the cell. Look at the translations {np.array2string(L, precision=6)}."
+            )
         return LatticeGluing(lengths, twin, same, n_wrapped, 0.0)
     point, cell, gap = _points(V, F, twin, L, reach)
     n_glued = _glue(twin, same, F, point, cell)

@@ -60,9 +60,10 @@ def check_connected(K: DeltaComplex) -> None:
     n, label = face_components(K.twin)
     if n > 1:
         sizes = ", ".join(str(size) for size in np.sort(np.bincount(label))[::-1][:5])
+        more = ", …" if n > 5 else ""
         raise ComplexError(
-            f"the surface has {n} components (of {sizes}{', …' if n > 5 else ''} faces), and each "
-            "has a period matrix of its own: take them one by one (K.components(), --component)."
+            f"the surface has {n} components (of {sizes}{more} faces). Each has a period matrix of "
+            "its own: take them one by one (K.components(), --component)."
         )
 
 

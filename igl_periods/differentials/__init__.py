@@ -10,9 +10,10 @@ with 2g − 2 zeros, and with translations by periods across the cut.
 
 ===========================  ==================================================================
 ``normalised``               ζ_1..ζ_g along all edges
-``jacobian``                 the Abel–Jacobi map
+``jacobian``                 the Abel–Jacobi map, of points and divisors
 ``prescribed_periods``       the form with given periods
 ``even_form``                the form of most even length
+``zeros_of_forms``           the zeros of a form, its stratum
 ``parametrization``          the map z = ∫ζ, its seams, zeros and distortion
 ===========================  ==================================================================
 
@@ -24,15 +25,19 @@ Gu, Yau, "Global conformal surface parameterization" (2003).
 """
 
 from .normalised import normalised_differentials
-from .jacobian import AbelJacobi, abel_jacobi
+from .jacobian import AbelJacobi, abel_jacobi, divisor_class
 from .even_form import evenness, most_even_form
 from .parametrization import Parametrization, parametrize
 from .prescribed_periods import form_of_periods, form_of_real_periods
+from .zeros_of_forms import FormZeros, form_zeros
 
 __all__ = [
     "normalised_differentials",
     "AbelJacobi",
     "abel_jacobi",
+    "divisor_class",
+    "FormZeros",
+    "form_zeros",
     "form_of_periods",
     "form_of_real_periods",
     "evenness",

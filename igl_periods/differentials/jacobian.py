@@ -6,6 +6,8 @@ It takes a point P to :math:`\bigl(\int_{P_0}^P \zeta_k\bigr)_k` in the Jacobian
 
 .. math:: x_k(P) = \int_{P_0}^P \alpha_k, \qquad y_l(P) = \int_{P_0}^P \beta_l \pmod 1 .
 
+It extends to divisors Σ m_P P by addition.
+
 References
 ----------
 Farkas, Kra, "Riemann surfaces" (1992), section III.6.
@@ -13,6 +15,7 @@ Farkas, Kra, "Riemann surfaces" (1992), section III.6.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -76,3 +79,41 @@ def abel_jacobi(pm: PeriodMatrix, base: int = 0) -> AbelJacobi:
     coordinates[coordinates == 1.0] = 0.0
     x, y = coordinates[:, : pm.genus], coordinates[:, pm.genus :]
     return AbelJacobi(coordinates, x + y @ pm.matrix)
+
+
+def divisor_class(pm: PeriodMatrix, divisor: Mapping[int, int], base: int = 0) -> Complexes:
+    """The point Σ m_P A(P) of the Jacobian, A the Abel–Jacobi map, for a divisor Σ m_P P.
+
+    By Abel's theorem a divisor of degree 0 is that of a meromorphic function iff this is 0; of
+    degree 0 it does not depend on the base vertex.
+
+    Parameters
+    ----------
+    pm : PeriodMatrix
+    divisor : mapping
+        From vertices of ``pm.complex`` to multiplicities.
+    base : int
+        The vertex that goes to 0.
+
+    Returns
+    -------
+    (g,) complex
+        In the fundamental parallelepiped of the lattice Z^g + Π Z^g, up to rounding at its border.
+
+    Raises
+    ------
+    ValueError
+        If there is no such vertex, or a multiplicity is no integer.
+    """
+    image, g = abel_jacobi(pm, base), pm.genus
+    total = np.zeros(2 * g)
+    for vertex, multiplicity in divisor.items():
+        place = checked_integer("a vertex", vertex)
+        if not 0 <= place < len(image.coordinates):
+            raise ValueError(
+                f"there is no vertex {place}: there are {len(image.coordinates)}, counted from 0."
+            )
+        total += checked_integer("a multiplicity", multiplicity) * image.coordinates[place]
+    total = np.mod(total, 1.0)
+    point: Complexes = total[:g] + total[g:] @ pm.matrix
+    return point

@@ -30,8 +30,28 @@ converge geometrically, so that 100 digits take a degree of 200 and not a finer 
 """
 
 from .surface_choice import with_exact_distances
+from .exact_arithmetic import (
+    ball_from_text,
+    ball_in_text,
+    from_integers,
+    matrix_from_integers,
+    matrix_to_integers,
+    to_integers,
+)
 from .enclosure import PeriodEnclosure
 from .exact_lengths import distances
 from .computation import MOST_DIGITS, enclose
 
-__all__ = ["MOST_DIGITS", "distances", "PeriodEnclosure", "enclose", "with_exact_distances"]
+__all__ = [
+    "MOST_DIGITS",
+    "distances",
+    "PeriodEnclosure",
+    "enclose",
+    "with_exact_distances",
+    "matrix_to_integers",
+    "matrix_from_integers",
+    "ball_in_text",
+    "ball_from_text",
+    "to_integers",
+    "from_integers",
+]

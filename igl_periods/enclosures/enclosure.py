@@ -196,8 +196,8 @@ class PeriodEnclosure:
     def to_period_matrix(self) -> PeriodMatrix:
         """The same in floating point, with the allowance for rounding that this costs."""
         n = 2 * self.genus
-        D = np.array([float(x.mid()) for x in self.dirichlet.entries()]).reshape(n, n)
-        D, loss = congruence(np.eye(n, dtype=np.int8), D)
+        middles = np.array([float(x.mid()) for x in self.dirichlet.entries()]).reshape(n, n)
+        D, loss = congruence(np.eye(n, dtype=np.int8), middles)
         return PeriodMatrix(
             dirichlet=D,
             certified=True,
@@ -322,16 +322,12 @@ def _midpoint(Pi: flint.acb_mat) -> NDArray[np.complex128]:
 
 
 def _as_balls(Pi: ArrayLike | flint.acb_mat, g: int) -> flint.acb_mat:
-    if isinstance(Pi, flint.acb_mat):
-        shape, balls = (Pi.nrows(), Pi.ncols()), Pi
-    else:
-        array = np.asarray(Pi)
-        shape = array.shape
-        entries = [flint.acb(complex(z)) for z in array.ravel().tolist()]
-        balls = flint.acb_mat(*shape, entries) if len(shape) == 2 else None
+    shape = (Pi.nrows(), Pi.ncols()) if isinstance(Pi, flint.acb_mat) else np.shape(Pi)
     if shape != (g, g):
         raise ValueError(f"a period matrix of genus {g} has shape {(g, g)}, not {shape}.")
-    return balls
+    if isinstance(Pi, flint.acb_mat):
+        return Pi
+    return flint.acb_mat(g, g, [flint.acb(complex(z)) for z in np.asarray(Pi).ravel().tolist()])
 
 
 def _relative_radius(D: flint.arb_mat, midpoint: NDArray[np.float64]) -> float:

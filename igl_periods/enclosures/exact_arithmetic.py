@@ -24,6 +24,21 @@ def from_integers(mantissa: int, exponent: int, radius: int, radius_exponent: in
     return Arb(Arb((mantissa, exponent)), Arb((radius, radius_exponent)))
 
 
+def matrix_to_integers(A: flint.acb_mat) -> list[list[tuple[int, ...]]]:
+    """Rows of a matrix of complex balls, each as eight integers: they can be pickled."""
+    rows = A.tolist() if A.nrows() else []
+    return [[(*to_integers(z.real), *to_integers(z.imag)) for z in row] for row in rows]
+
+
+def matrix_from_integers(rows: list[list[tuple[int, ...]]]) -> flint.acb_mat:
+    """A matrix of balls that contain those that :func:`matrix_to_integers` was given."""
+    if not rows:
+        return flint.acb_mat(0, 0)
+    return flint.acb_mat(
+        [[flint.acb(from_integers(*n[:4]), from_integers(*n[4:])) for n in row] for row in rows]
+    )
+
+
 def ball_in_text(x: Arb, digits: int) -> str:
     """A decimal enclosure of a ball, with so many digits."""
     return str(x.str(max(digits, 1), more=True))

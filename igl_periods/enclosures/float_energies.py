@@ -255,7 +255,7 @@ def _products(X: Balls, Y: Balls) -> Balls:
     mid = parts[0].astype(np.float64)
     rad = np.outer(size_X, r_Y + 2.0 * n_terms * LONG_UNIT * size_Y)
     rad += np.outer(r_X, size_Y + r_Y) + UNIT * np.abs(mid)
-    return Balls(mid, rad * UP + (n + 1) * TINY)
+    return Balls(mid, np.asarray(rad * UP + (n + 1) * TINY, dtype=np.float64))
 
 
 def _shapes(cells: Cells, interfaces: Ints, side: int) -> tuple[Balls, Balls]:

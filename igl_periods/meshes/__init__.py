@@ -27,6 +27,7 @@ loops, the report says what keeps a mesh from having a period matrix.
 
 from .load import load_mesh, split_components
 from .report import MeshReport
+from .repair import checked_repair
 from .samples import SAMPLES, sample_files
 from .advice import way_out
 from .seams import WELD
@@ -42,6 +43,7 @@ from .mesh_objects import mesh_of_object
 __all__ = [
     "load_mesh",
     "MeshReport",
+    "checked_repair",
     "SAMPLES",
     "sample_files",
     "way_out",

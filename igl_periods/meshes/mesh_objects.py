@@ -80,7 +80,7 @@ def _vtk(mesh: Any) -> _Mesh:
 def _meshio(mesh: Any) -> _Mesh:
     if not (hasattr(mesh, "points") and hasattr(mesh, "cells")):
         raise _no_mesh("meshio", mesh, "a meshio.Mesh does")
-    blocks = [np.zeros((0, 3), dtype=np.int64)]
+    blocks: list[Ints] = [np.zeros((0, 3), dtype=np.int64)]
     V = checked_positions(mesh.points)
     for cells in mesh.cells:
         if cells.type in ("triangle", "quad", "polygon"):

@@ -43,6 +43,7 @@ from igl_periods.complexes import (
     orientable_faces,
 )
 from igl_periods.errors import MeshError
+from igl_periods.options import checked_integer
 
 from .contraction import contracted
 from .facts import collapsed, glued_in_pairs, repeats
@@ -80,9 +81,9 @@ def repair_mesh(
     ------
     MeshError
         If the arrays have a wrong shape or type, an index is out of range, coordinates are not
-        finite, the tolerance is none, or no triangle is left.
+        finite, the tolerance is none, the size of holes no number, or no triangle is left.
     """
-    _check_tolerance(weld)
+    weld, largest_hole = checked_repair(weld, largest_hole)
     V = checked_positions(V)
     F = checked_corners(F, len(V))
     check_finite(V, F)
@@ -114,12 +115,20 @@ def repair_mesh(
     return used, faces, tuple(steps)
 
 
-def _check_tolerance(weld: float) -> None:
+def checked_repair(weld: float, largest_hole: int) -> tuple[float, int]:
+    """How far a repair goes, as numbers of Python; MeshError if that is nothing possible."""
     if not (isinstance(weld, Real) and 0.0 <= weld < _LARGEST_WELD):
         raise MeshError(
             f"weld = {weld!r}: vertices are welded within a part of the diagonal of the mesh, from "
             f"0 to less than {_LARGEST_WELD:g}."
         )
+    try:
+        size = checked_integer("largest_hole", largest_hole)
+    except ValueError as error:
+        raise MeshError(str(error)) from None
+    if size < 0:
+        raise MeshError(f"largest_hole = {size}: holes have a number of edges, or 0 for none.")
+    return float(weld), size
 
 
 def _free_sides(F: Ints) -> Ints:

@@ -89,7 +89,8 @@ def surface_of(
         return surface
     parts = components_by_genus(surface)
     if not 1 <= component <= len(parts):
-        raise ComplexError(f"there is no component {component}: there are {len(parts)}.")
+        there = "there is only one" if len(parts) == 1 else f"there are {len(parts)}"
+        raise ComplexError(f"there is no component {component}: {there}.")
     return parts[component - 1]
 
 

@@ -20,6 +20,8 @@ Clebsch for genus 2, vanishing theta constants for genus 3.
 ``equivalence``            γ with γ·Π₁ = Π₂
 ``marking_search``         γ with γ·Π₁ near Π₂
 ``automorphisms``          the group of γ with γ·Π = Π
+``finite_groups``          multiplication tables, and whether two groups are isomorphic
+``group_names``            names of small groups
 ``theta``                  theta constants, and hyperellipticity
 ``genus_one``              Klein's j
 ``genus_two``              roots and invariants of the curve of genus 2
@@ -42,9 +44,11 @@ from .equivalence import (
     moduli_distance,
     symplectic_isomorphisms,
 )
-from .balls_in_comparison import reduced_balls
+from .balls_in_comparison import ReducedBalls, reduced_balls
 from .isometries_in_balls import ball_isometries
 from .marking_search import NearestMarking, nearest_marking
+from .finite_groups import FiniteGroup, are_isomorphic, direct_product, group_of_matrices
+from .group_names import group_name
 from .automorphisms import SymplecticGroup, symplectic_automorphism_group
 from .theta import is_hyperelliptic, theta_constants, vanishing_even_characteristics
 from .genus_two import absolute_igusa_invariants, igusa_clebsch_invariants, rosenhain_roots
@@ -60,6 +64,7 @@ from .quadratic_numbers import QuadraticGuess, recognise_entries, recognise_quad
 from .lattice_isometries import isometries
 
 __all__ = [
+    "ReducedBalls",
     "reduced_balls",
     "ball_isometries",
     "ARRAY_TOLERANCE",
@@ -70,6 +75,11 @@ __all__ = [
     "symplectic_isomorphisms",
     "nearest_marking",
     "NearestMarking",
+    "FiniteGroup",
+    "are_isomorphic",
+    "direct_product",
+    "group_of_matrices",
+    "group_name",
     "symplectic_automorphism_group",
     "SymplecticGroup",
     "vanishing_even_characteristics",

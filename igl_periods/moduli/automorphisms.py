@@ -32,6 +32,8 @@ from igl_periods.errors import EnumerationLimitError
 from igl_periods.siegel import PointInBalls
 
 from .equivalence import Isomorphisms, symplectic_isomorphisms
+from .finite_groups import FiniteGroup, group_of_matrices
+from .group_names import group_name
 from .theta import is_hyperelliptic
 
 # No automorphism of a surface of genus g ≥ 2 has order above 4g + 2 (Wiman), no γ then above twice
@@ -77,6 +79,7 @@ class SymplecticGroup(Sequence[Ints]):
         answer = {True: "yes", False: "no", None: "not decided"}[self.hyperelliptic]
         return [
             ("order", str(self.order)),
+            *([("name", self.name)] if self.name is not None else []),
             ("reversing", str(len(self.reversing))),
             ("hyperelliptic", answer),
             ("of the surface", " or ".join(map(str, self.surface_orders))),
@@ -96,6 +99,40 @@ class SymplecticGroup(Sequence[Ints]):
     def order(self) -> int:
         """Number of elements, −1 included."""
         return len(self.elements)
+
+    @cached_property
+    def group(self) -> FiniteGroup:
+        """The multiplication table of the elements, in their order.
+
+        Raises
+        ------
+        ValueError
+            If the elements are no group: see ``generators``.
+        """
+        return group_of_matrices(list(self.elements))
+
+    @cached_property
+    def name(self) -> str | None:
+        """The name of the group, such as ``"GL(2,3)"`` or ``"PSL(2,7) x C2"``.
+
+        D_n has 2n elements.  None if it is isomorphic to none of the groups that have a name in
+        :mod:`igl_periods.moduli.group_names`; a name that is given is right.
+        """
+        return group_name(self.group)
+
+    @cached_property
+    def surface_name(self) -> str | None:
+        """The name of the group of automorphisms of the surface.
+
+        The whole group if the surface is hyperelliptic, otherwise the quotient by −1; None if
+        that is not known, or has no name.
+        """
+        if self.hyperelliptic is None:
+            return None
+        if self.hyperelliptic:
+            return self.name
+        minus = next(k for k, gamma in enumerate(self.elements) if not (gamma + self[0]).any())
+        return group_name(self.group.quotient_by(minus))
 
     @property
     def surface_orders(self) -> tuple[int, ...]:

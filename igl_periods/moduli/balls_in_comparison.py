@@ -50,6 +50,10 @@ class ReducedBalls:
         """The genus g."""
         return len(self.gamma) // 2
 
+    def __repr__(self) -> str:
+        known = "proved" if self.proved else "taken for right"
+        return f"ReducedBalls(genus {self.genus}, {self.bits} bits, {known})"
+
     def energies(self) -> flint.arb_mat:
         """The energy matrix in balls; (2g, 2g)."""
         return energy_balls(self.matrix, self.bits)

@@ -41,7 +41,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from igl_periods.arrays import Complexes, Floats, Ints
-from igl_periods.display import facts_html, integer_lines, lines_html
+from igl_periods.display import counted, facts_html, integer_lines, lines_html
 from igl_periods.errors import EnumerationLimitError
 from igl_periods.options import checked_integer, checked_number, checked_switch
 from igl_periods.siegel import (
@@ -122,7 +122,8 @@ class Isomorphisms(list[Ints]):
             stopped = "" if self.complete else ", and there may be more"
             if self.in_balls:
                 return f"{self._agreement()}{stopped}"
-            return f"{len(self)} transformations within {self.tolerance:.3g}{stopped}"
+            found = counted(len(self), "transformation", "transformations")
+            return f"{found} within {self.tolerance:.3g}{stopped}"
         if not self.complete:
             return "undecided: the search was stopped before it found a transformation"
         if self.certified and self.in_balls:

@@ -38,7 +38,7 @@ References
 Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 3.
 """
 
-from .arguments import checked_options
+from .arguments import checked_limits, checked_options
 from .solved_forms import SolvedForms, solve_forms
 from .derivative import EntryCovariance, Gradient
 from .matrix import PeriodMatrix, check_period_matrix, reduced_if_feasible, siegel_reduced
@@ -56,6 +56,7 @@ __all__ = [
     "LEAST_ALLOWANCE",
     "combined",
     "congruence",
+    "checked_limits",
     "checked_options",
     "SolvedForms",
     "solve_forms",

@@ -28,6 +28,7 @@ from flint import arb
 
 from igl_periods.arrays import Ints
 from igl_periods.complexes import DeltaComplex, Flips
+from igl_periods.display import counted
 from igl_periods.errors import ComplexError
 
 from .midpoint_radius import Balls
@@ -112,8 +113,8 @@ def after_flips(lengths: Balls, rounds: list[Flips]) -> Balls:
     unknown = np.flatnonzero(~np.isfinite(now.rad))
     if unknown.size:
         raise ComplexError(
-            f"rounding hides whether {unknown.size} edges can be flipped as they were, edge "
-            f"{unknown[0]} the first: their triangles are too extreme. Remesh them, or keep the "
+            f"rounding hides whether {counted(unknown.size, 'edge', 'edges')} can be flipped, edge "
+            f"{unknown[0]} the first: the triangles are too extreme. Remesh them, or keep the "
             "triangulation as it is (delaunay=False, --no-delaunay)."
         )
     return now

@@ -266,7 +266,8 @@ def _norms(values: Floats) -> Floats:
 
 def _norm_of_absolute(A: Floats) -> float:
     """An upper bound of the norm of the matrix of the absolute values."""
-    size, v = np.abs(A), np.ones(A.shape[1])
+    size = np.abs(A)
+    v: Floats = np.ones(A.shape[1])
     for _ in range(20):
         v = size.T @ (size @ v)
         v = v / v.max() + 1e-3

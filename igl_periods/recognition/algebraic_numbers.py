@@ -44,8 +44,9 @@ from .polynomial_roots import (
 # Digits that must be left over: a coincidence of this many is not believed.
 LEAST_LEFT_OVER = 6.0
 LARGEST_DEGREE = 10
-_LOG2 = math.log10(2.0)
 _GUARD_BITS = 64
+# Longer polynomials are not written out.
+_LONGEST_TEXT = 100
 
 
 @dataclass(frozen=True)
@@ -97,6 +98,14 @@ class AlgebraicNumber:
     near: complex
     evidence: Evidence | None = None
 
+    @classmethod
+    def root(
+        cls, polynomial: tuple[int, ...], near: complex, evidence: Evidence | None = None
+    ) -> AlgebraicNumber:
+        """The root of an irreducible polynomial next to a number."""
+        exact = root_near(polynomial, near, _GUARD_BITS)
+        return cls(polynomial, complex(exact.mid()), evidence)
+
     @property
     def degree(self) -> int:
         """The degree over the rational numbers."""
@@ -136,7 +145,12 @@ class AlgebraicNumber:
         surd = in_radicals(self)
         if surd is not None:
             return str(surd)
-        return f"root of {polynomial_text(self.polynomial)} near {self.near:.6g}"
+        text = polynomial_text(self.polynomial)
+        if len(text) > _LONGEST_TEXT:
+            height = len(str(self.height)) - 1
+            text = f"a polynomial of degree {self.degree} and height 10^{height}"
+        near = f"{self.near.real:.6g}" if self.is_real else f"{self.near:.6g}"
+        return f"root of {text} near {near}"
 
 
 def recognise_number(
@@ -186,7 +200,8 @@ def recognise_number(
             return _first_convincing(z, known, degree, left_over, real=True)
         if z.real.contains(0):
             y = _first_convincing(flint.acb(z.imag), known, degree, left_over, real=True)
-            return None if y is None else _times_i(y)
+            number = None if y is None else _times_i(y)
+            return number if number is not None and number.degree <= degree else None
         return _first_convincing(z, known, degree, left_over, real=False)
 
 
@@ -216,31 +231,43 @@ def _candidates(z: flint.acb, error: flint.arb, n: int, *, real: bool) -> Iterat
     if z.contains(0):
         yield AlgebraicNumber((0, 1), 0j, _evidence((0, 1), z, error, real=real))
         return
-    coefficients = _short_polynomial(z, error, n, real=real)
-    for factor, _ in flint.fmpz_poly(coefficients).factor()[1]:
-        if factor.degree() < 1 or not factor(z).contains(0):
-            continue
-        near = _only_root(factor, z)
-        if near is not None:
-            c = integer_polynomial([int(x) for x in factor.coeffs()])
-            yield AlgebraicNumber(c, near, _evidence(c, z, error, real=real))
-
-
-def _short_polynomial(z: flint.acb, error: flint.arb, n: int, *, real: bool) -> list[int]:
     size = z.mid().abs_upper()
-    weights, scale = _weights(size, n)
+    for weights in dict.fromkeys((_flat(size, n), _graded(size, n))):
+        coefficients = _short_polynomial(z, error, weights, real=real)
+        for factor, _ in flint.fmpz_poly(coefficients).factor()[1]:
+            if factor.degree() < 1 or not factor(z).contains(0):
+                continue
+            near = _only_root(factor, z)
+            if near is not None:
+                c = integer_polynomial([int(x) for x in factor.coeffs()])
+                yield AlgebraicNumber(c, near, _evidence(c, z, error, real=real))
+
+
+def _short_polynomial(
+    z: flint.acb, error: flint.arb, weights: tuple[int, ...], *, real: bool
+) -> list[int]:
+    """The polynomial that is shortest with these weights of its coefficients and values."""
+    n, size = len(weights) - 1, z.mid().abs_upper()
     relative = float((size / error).log() / flint.arb(2).log())
     bits = max(4, int(relative - math.log2(n + 1)))
-    powers = [z.mid() ** k * flint.acb(2) ** scale for k in range(n + 1)]
-    values = [[p.real] if real else [p.real, p.imag] for p in powers]
+    # The largest value of a monomial with a coefficient of weight 1 is scaled to 1.
+    largest = max((size**k / w for k, w in enumerate(weights)), key=lambda x: float(x.log()))
+    values = [
+        [p.real] if real else [p.real, p.imag]
+        for p in (z.mid() ** k / largest for k in range(n + 1))
+    ]
     return reduced_relations(values, bits, weights)[0]
 
 
-def _weights(size: flint.arb, n: int) -> tuple[list[int], int]:
-    """Weights 2^(e k + s) next to 2^s |z|^k, none below 1, and s."""
+def _flat(size: flint.arb, n: int) -> tuple[int, ...]:
+    """All coefficients weigh the same."""
+    return (1,) * (n + 1)
+
+
+def _graded(size: flint.arb, n: int) -> tuple[int, ...]:
+    """Weights next to the powers of |z|, none below 1: all terms are as large as each other."""
     e = round(float(size.log() / flint.arb(2).log()))
-    scale = max(0, -e * n)
-    return [1 << (e * k + scale) for k in range(n + 1)], scale
+    return tuple(1 << (e * k if e >= 0 else -e * (n - k)) for k in range(n + 1))
 
 
 def _only_root(factor: flint.fmpz_poly, z: flint.acb) -> complex | None:
@@ -251,20 +278,28 @@ def _only_root(factor: flint.fmpz_poly, z: flint.acb) -> complex | None:
 
 
 def _evidence(c: tuple[int, ...], z: flint.acb, error: flint.arb, *, real: bool) -> Evidence:
-    n, coordinates = len(c) - 1, 1 if real else 2
-    size = z.mid().abs_upper()
-    if z.contains(0):
-        size = flint.arb(1)
-    weights, scale = _weights(size, n)
+    """The evidence by the kind of weights that speaks most for the polynomial."""
+    size = flint.arb(1) if z.contains(0) else z.mid().abs_upper()
+    boxes = [weights(size, len(c) - 1) for weights in (_flat, _graded)]
+    kinds = [_evidence_in_box(c, weights, z, error, real=real) for weights in boxes]
+    return max(kinds, key=lambda evidence: evidence.left_over)
+
+
+def _evidence_in_box(
+    c: tuple[int, ...], weights: tuple[int, ...], z: flint.acb, error: flint.arb, *, real: bool
+) -> Evidence:
+    """Among polynomials with |c_k| w_k as small: how many have a value as small as the error."""
+    size = flint.arb(1) if z.contains(0) else z.mid().abs_upper()
+    miss = flint.fmpz_poly(list(c)).derivative()(z.mid()).abs_upper() * error
+    coordinates = 1 if real else 2
     box = max(abs(x) * w for x, w in zip(c, weights, strict=True))
-    spent = sum(math.log10(2 * (box // w) + 1) for w in weights) - _LOG2
-    slope = flint.fmpz_poly(list(c)).derivative()(z.mid()).abs_upper()
-    spread = flint.arb(box) * flint.arb(2) ** -scale * flint.arb(n + 1).sqrt()
-    chance = _log10(slope * error / spread)
-    digits = -coordinates * min(chance, 0.0)
-    excess = sum(map(math.log10, weights)) - math.log10(weights[0]) * (n + 1)
-    known = -coordinates * _log10(error / size)
-    return Evidence(digits, spent, max(0.0, (known + excess) / (n + 1)))
+    # Half of them, since −P is as good as P; but boxes of two kinds are tried.
+    spent = sum(math.log10(2 * (box // w) + 1) for w in weights)
+    spread = sum(((size**k * box / w) ** 2 for k, w in enumerate(weights)), flint.arb(0)).sqrt()
+    digits = -coordinates * min(_log10(miss / spread), 0.0)
+    graded = sum(math.log10(w) - math.log10(min(weights)) for w in weights)
+    height = (graded - coordinates * _log10(error / size)) / len(c)
+    return Evidence(digits, spent, max(0.0, height))
 
 
 def _log10(x: flint.arb) -> float:

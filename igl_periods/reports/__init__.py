@@ -4,6 +4,7 @@
 ``words``           every sentence about a bound, a mesh, a parametrization: once
 ``terminal_text``   what the command line prints
 ``enclosure_text``  the same of an enclosure
+``curve_text``      equations and invariants of curves
 ``json_document``   the same for programs
 ``page``            one self-contained HTML file, with pictures
 ==================  ===========================================================================
@@ -12,6 +13,7 @@
 from .words import method_in_words, parametrization_in_words
 from .terminal_text import LARGEST_PRINTED, summary
 from .enclosure_text import enclosure_summary, lengths_in_words
+from .curve_text import curve_summary, curve_to_json, invariant_lines, number_to_json
 from .json_document import (
     SCHEMA,
     document_to_json,
@@ -29,6 +31,10 @@ __all__ = [
     "summary",
     "enclosure_summary",
     "lengths_in_words",
+    "curve_summary",
+    "curve_to_json",
+    "invariant_lines",
+    "number_to_json",
     "SCHEMA",
     "json_schema",
     "document_to_json",

@@ -20,7 +20,9 @@ from igl_periods.errors import EnumerationLimitError
 ENUMERATION_LIMIT = 500_000
 
 
-def short_vectors(Y: Floats, bound: float, limit: int = ENUMERATION_LIMIT) -> tuple[Ints, Floats]:
+def short_vectors(
+    Y: Floats, bound: float, limit: int = ENUMERATION_LIMIT, shift: Floats | None = None
+) -> tuple[Ints, Floats]:
     """All integer vectors x with ``xᵀ Y x ≤ bound``, 0 and both signs included.
 
     The bound is widened by 1e-9 of itself, so that rounding loses no vector.
@@ -32,12 +34,14 @@ def short_vectors(Y: Floats, bound: float, limit: int = ENUMERATION_LIMIT) -> tu
     bound : float
     limit : int
         Most partial vectors at a level.
+    shift : (n,) float, optional
+        Short are then the vectors x + shift.
 
     Returns
     -------
     vectors : (N, n) int
     values : (N,) float
-        ``xᵀ Y x`` of each, increasing.
+        ``xᵀ Y x`` of each, or that of x + shift; increasing.
 
     Raises
     ------
@@ -45,11 +49,12 @@ def short_vectors(Y: Floats, bound: float, limit: int = ENUMERATION_LIMIT) -> tu
         If more than ``limit`` partial vectors occur.
     """
     n = len(Y)
+    moved = np.zeros(n) if shift is None else shift
     R = np.linalg.cholesky(Y[::-1, ::-1])[::-1, ::-1].T  # lower triangular, Y = Rᵀ R
     vectors: Ints = np.zeros((1, n), dtype=np.int64)
     room: Floats = np.full(1, bound * (1 + 1e-9))
     for i in range(n):
-        centre = -(vectors[:, :i] @ R[i, :i]) / R[i, i]
+        centre = -((vectors[:, :i] + moved[:i]) @ R[i, :i]) / R[i, i] - moved[i]
         radius = np.sqrt(room) / R[i, i]
         low, high = np.ceil(centre - radius), np.floor(centre + radius)
         count = np.maximum(high - low + 1, 0).astype(np.int64)
@@ -64,6 +69,7 @@ def short_vectors(Y: Floats, bound: float, limit: int = ENUMERATION_LIMIT) -> tu
         vectors[:, i] = low[parent].astype(np.int64) + step
         used = (R[i, i] * (vectors[:, i] - centre[parent])) ** 2
         room = np.maximum(room[parent] - used, 0.0)
-    values = np.einsum("ni,ij,nj->n", vectors, Y, vectors, optimize=True)
+    points = vectors + moved
+    values = np.einsum("ni,ij,nj->n", points, Y, points, optimize=True)
     order = np.argsort(values, kind="stable")
     return vectors[order], values[order]

@@ -170,8 +170,9 @@ def _integer_part(X: Floats) -> Ints:
     """The integer symmetric S with |X − S| ≤ ½, 0 where |X| ≤ ½ + ε already."""
     if X.size and np.abs(X).max() >= 2.0**62:
         raise NotASiegelPointError(
-            f"the real part reaches {float(np.abs(X).max()):.3g} in the course of the reduction: "
-            "the matrix is too close to the boundary of the half-space for 64-bit integers"
+            f"the real part reaches {float(np.abs(X).max()):.3g} in the course of the reduction, "
+            "which no 64-bit integers shift back: it is as large from the beginning, or the matrix "
+            "is close to the boundary of the half-space"
         )
     S = np.where(np.abs(X) > 0.5 + _EPSILON, np.rint(X), 0.0).astype(np.int64)
     return np.triu(S) + np.triu(S, 1).T

@@ -54,6 +54,35 @@ def bolza() -> flint.acb_mat:
     )
 
 
+def l_shape(x: flint.arb) -> flint.acb_mat:
+    """A unit square with two arms of length x − 1: i/(2x − 1) times a real matrix."""
+    scale = 1 / (2 * x - 1)
+    a, b = scale * (2 * x * x - 2 * x + 1), -scale * 2 * x * (x - 1)
+    return _matrix(np.zeros((2, 2)).tolist(), [[a, b], [b, a]])
+
+
+def golden_l() -> flint.acb_mat:
+    """The L-shape of x = (1 + √5)/2."""
+    return l_shape((1 + flint.arb(5).sqrt()) / 2)
+
+
+def rational_l(numerator: int, denominator: int) -> flint.acb_mat:
+    """The L-shape of a rational x."""
+    return l_shape(flint.arb(flint.fmpq(numerator, denominator)))
+
+
+def polygon(g: int, basis: Ints) -> flint.acb_mat:
+    """y² = x^{2g+1} − x, in an integer symplectic basis of the sides of the regular 4g-gon."""
+    periods = flint.acb_mat(
+        [
+            [root_of_unity(Fraction((2 * j - 1) * k, 4 * g)) for k in range(2 * g)]
+            for j in range(1, g + 1)
+        ]
+    )
+    a, b = (integer_balls(half) for half in (basis[:g].T, basis[g:].T))
+    return symmetrised((periods * a).solve(periods * b))
+
+
 def klein() -> flint.acb_mat:
     """x³y + y³z + z³x = 0."""
     root = flint.arb(7).sqrt() / 4

@@ -175,8 +175,8 @@ def _chords(P: Floats, F: Ints) -> tuple[Complexes, Complexes]:
     end = _in_phase(begin, spinors[np.maximum(tail, head)])
     middle = 0.5 * (begin + end)
     root = _roots_at_middles(P, F, middle)
-    nodes, weights = np.polynomial.legendre.leggauss(_NODES)
-    r, weights = 0.5 * (1.0 - nodes), 0.5 * weights
+    nodes, gauss = np.polynomial.legendre.leggauss(_NODES)
+    r, weights = 0.5 * (1.0 - nodes), 0.5 * gauss
     # On the segment b da − a db is constant; each half is run through from the middle, r = 1, in
     # t = r², so that the square root at a branch point is smooth.
     det = begin[..., 1] * end[..., 0] - begin[..., 0] * end[..., 1]

@@ -1,15 +1,19 @@
 r"""Named surfaces with exact period matrices.
 
 An entry stands for a Riemann surface and lists all the names under which it occurs.  Beside single
-surfaces there are two families in every genus,
+surfaces there are three families in every genus,
 
-* the curves y² = xⁿ − 1, of genus g = ⌊(n − 1)/2⌋;
+* the curves y² = xⁿ − 1, of genus g = ⌊(n − 1)/2⌋; for odd n they are regular 2n-gons with
+  opposite sides glued, and two regular n-gons glued along parallel sides;
+* the curves y² = x^{2g+1} − x, the regular 4g-gons with opposite sides glued;
 * Lawson's minimal surfaces ξ_{m,k}, of genus mk; ξ_{m,1} is y² = x^{2m+2} − 1.
 
 The rotation x ↦ ζx, ζ = e^{2πi/n}, of y² = xⁿ − 1 moves a closed curve round two neighbouring
 branch points to the next one; 2g of these curves c_0, …, c_{2g−1} are a basis of homology with
 c_k · c_{k+1} = 1 and no other intersections, and the form x^{j−1} dx/y, multiplied by ζ^j under the
-rotation, has the periods const · ζ^{jk}.  So Π = A⁻¹B follows without any integral.
+rotation, has the periods const · ζ^{jk}.  So Π = A⁻¹B follows without any integral.  The 2g sides
+c_k of a 4g-gon, with c_i · c_k = 1 for i < k, are a basis too, and the rotation by 2π/4g = 2π/m
+takes c_k to c_{k+1}, so that the periods of the g forms are exp(2πi (2j − 1) k / m).
 
 References
 ----------
@@ -43,7 +47,7 @@ def catalogue(genus: int | None = None) -> list[NamedSurface]:
     ----------
     genus : int, optional
         All of this genus; by default all up to genus 4, beyond which there are only those of the
-        two families.
+        three families.
 
     Raises
     ------
@@ -53,9 +57,9 @@ def catalogue(genus: int | None = None) -> list[NamedSurface]:
     Examples
     --------
     >>> len(catalogue())
-    16
-    >>> [surface.name for surface in catalogue(2)]
-    ['Omega_1', 'Bolza curve', 'y^2 = x^5 - 1', 'Lawson xi_{2,1}']
+    21
+    >>> [surface.name for surface in catalogue(2)][:3]
+    ['Omega_1', 'golden L', 'L(3/2)']
     """
     if genus is None:
         largest = max(surface.genus for surface in _SINGLE)
@@ -102,6 +106,8 @@ def _binomial_balls(n: int) -> flint.acb_mat:
 
 
 def _families(genus: int) -> Iterator[NamedSurface]:
+    if genus >= 3:
+        yield _regular_polygon(genus)
     if genus >= 2:
         yield _binomial(2 * genus + 1)
         yield _binomial(2 * genus + 2)
@@ -112,7 +118,8 @@ def _families(genus: int) -> Iterator[NamedSurface]:
 
 def _binomial(n: int) -> NamedSurface:
     genus, equation = (n - 1) // 2, f"y^2 = x^{n} - 1"
-    names = [equation] if n % 2 else [f"Lawson xi_{{{genus},1}}", equation]
+    polygons = [f"regular {2 * n}-gon", f"double {n}-gon"]
+    names = [equation, *polygons] if n % 2 else [f"Lawson xi_{{{genus},1}}", equation]
     if n == 6:
         names += ["Omega_3", "six-square surface {4,6}"]
     return NamedSurface(
@@ -122,6 +129,50 @@ def _binomial(n: int) -> NamedSurface:
         "periods are powers of roots of unity; Bujalance, Costa, Gamboa, Riera (2000)",
         partial(binomial_period_matrix, n),
         partial(_binomial_balls, n),
+    )
+
+
+def polygon_period_matrix(genus: int) -> Complexes:
+    """The period matrix of y² = x^{2g+1} − x, the regular 4g-gon with opposite sides glued.
+
+    Raises
+    ------
+    ValueError
+        If the genus is less than 1.
+
+    Examples
+    --------
+    >>> polygon_period_matrix(1).round(12)
+    array([[0.+1.j]])
+    """
+    if genus < 1:
+        raise ValueError(f"genus = {genus}: a 4g-gon has a genus g >= 1")
+    odd = 2 * np.arange(1, genus + 1) - 1
+    periods = np.exp(2j * np.pi * np.outer(odd, np.arange(2 * genus)) / (4 * genus))
+    a, b = np.hsplit(periods @ _polygon_basis(genus).T, 2)
+    Pi = np.asarray(np.linalg.solve(a, b), dtype=np.complex128)
+    return 0.5 * (Pi + Pi.T)
+
+
+def _polygon_basis(g: int) -> Ints:
+    """A canonical basis in terms of the sides c_0, …, c_{2g−1} of the 4g-gon."""
+    upper = np.triu(np.ones((2 * g, 2 * g), dtype=np.int64), 1)
+    return integer_symplectic_basis(upper - upper.T).astype(np.int64)
+
+
+def _polygon_balls(genus: int) -> flint.acb_mat:
+    """The same as :func:`polygon_period_matrix` in balls."""
+    return exact.polygon(genus, _polygon_basis(genus))
+
+
+def _regular_polygon(genus: int) -> NamedSurface:
+    return NamedSurface(
+        f"y^2 = x^{2 * genus + 1} - x",
+        (f"regular {4 * genus}-gon",),
+        genus,
+        "periods are powers of roots of unity; Veech (1989) for the polygons",
+        partial(polygon_period_matrix, genus),
+        partial(_polygon_balls, genus),
     )
 
 
@@ -151,6 +202,11 @@ def _lawson_balls(m: int, k: int) -> flint.acb_mat:
     from .lawson.periods import lawson_period_matrix_in_balls
 
     return lawson_period_matrix_in_balls(m, k)
+
+
+def _l_shape(x: float) -> Complexes:
+    a, b = 2 * x * x - 2 * x + 1, -2 * x * (x - 1)
+    return 1j / (2 * x - 1) * np.array([[a, b], [b, a]])
 
 
 def _square_tiled(name: str) -> Complexes:
@@ -197,15 +253,45 @@ _SINGLE = (
     ),
     NamedSurface(
         "Omega_1",
-        ("L-shaped origami of three squares",),
+        ("L-shaped origami of three squares", "L(2)", "y^2 = 3 x^5 + 7 x^3 + 4 x"),
         2,
         "Bobenko, Mercat, Schmies, section 4.1, after Silhol",
         partial(_square_tiled, "omega_1"),
         exact.omega_1,
     ),
     NamedSurface(
+        "golden L",
+        ("L((1 + sqrt 5)/2)", "y^2 = x^5 + 5 x^3 + 5 x"),
+        2,
+        "closed form of L(x), a unit square with arms x - 1; McMullen (2003) for the surface",
+        partial(_l_shape, (1.0 + 5.0**0.5) / 2.0),
+        exact.golden_l,
+    ),
+    NamedSurface(
+        "L(3/2)",
+        ("y^2 = x^6 + c x^4 + c x^2 + 1, c = 33 (4 + 3 sqrt 2)/8",),
+        2,
+        "closed form of L(x), a unit square with arms x - 1",
+        partial(_l_shape, 1.5),
+        partial(exact.rational_l, 3, 2),
+    ),
+    NamedSurface(
+        "L(3)",
+        ("L-shaped origami of five squares", "y^2 = 135 x^5 + 161 x^3 + 48 x"),
+        2,
+        "closed form of L(x), a unit square with arms x - 1",
+        partial(_l_shape, 3.0),
+        partial(exact.rational_l, 3, 1),
+    ),
+    NamedSurface(
         "Bolza curve",
-        ("y^2 = x^5 - x", "Omega_2", "regular map {3,8} of genus 2", "four-square surface {4,8}"),
+        (
+            "y^2 = x^5 - x",
+            "Omega_2",
+            "regular map {3,8} of genus 2",
+            "four-square surface {4,8}",
+            "regular 8-gon",
+        ),
         2,
         "Bobenko, Mercat, Schmies, section 4.1, after Silhol; Bolza (1887)",
         partial(_square_tiled, "omega_2"),
@@ -226,6 +312,7 @@ _SINGLE = (
             "Dyck surface",
             "regular map {3,8} of genus 3",
             "quaternion origami",
+            "surface of the period matrix (1 + i)/2 [[2, 1, 1], [1, 2, 1], [1, 1, 2]]",
             "eierlegende Wollmilchsau",
         ),
         3,

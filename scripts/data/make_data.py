@@ -3,7 +3,8 @@
     python scripts/data/make_data.py
     python scripts/data/make_data.py --output somewhere
 
-Numbers are rounded to ten decimals, so that the last bits of a processor's arithmetic do not show.
+Numbers are rounded to ten decimals, so that the last bits of a processor's arithmetic do not show;
+surfaces whose lengths are known exactly are written with them.
 """
 
 from __future__ import annotations
@@ -38,7 +39,9 @@ README = """\
 # Small surfaces with exactly known period matrices
 
 Written by `python scripts/data/make_data.py`; running it again gives the same files, byte for byte.
-Coordinates and lengths are rounded to {decimals} decimals. A period matrix Π belongs to a marking,
+Coordinates and lengths are rounded to {decimals} decimals; `omega_*.json` and `klein.json` carry
+exact lengths, too, so that `igl_periods.enclose` proves digits of the surfaces that they are meant
+to be. A period matrix Π belongs to a marking,
 so a computed one agrees with the one given here up to the action of Sp(2g, Z).
 
 `*.off`, `*.obj` are meshes: `V, F, report = igl_periods.load_mesh(path)`.
@@ -48,10 +51,11 @@ have double edges and loops): an object with the keys
 
 * `"lengths"`: one row of three numbers per triangle, the length of the side opposite each corner;
 * `"twin"`: one row of three half-edges per triangle; half-edge 3 f + s is side s of triangle f, the
-  one opposite corner s, and the two glued sides run in opposite directions.
+  one opposite corner s, and the two glued sides run in opposite directions,
 
-    surface = json.load(open(path))
-    pm = igl_periods.period_matrix(igl_periods.DeltaComplex.from_gluing(**surface))
+and, where they are known, exact lengths and polygons (`igl_periods.DeltaComplex.to_json`).
+
+    pm = igl_periods.period_matrix(path)
 
 Polyhedral surfaces that are inscribed in smooth ones have Π only in the limit of fine meshes; the
 square-tiled ones have it exactly, and the certified bound of a computation is about them.
@@ -157,7 +161,7 @@ def klein():
             "½ [[e, 1, 1], [1, e, 1], [1, 1, e]], e = (−1 + i√7)/2",
         )
     )
-    return "klein.json", gluing(K), K.n_vertices, K.n_faces, 3, text
+    return "klein.json", exact_gluing(K), K.n_vertices, K.n_faces, 3, text
 
 
 def square_tiled(name):
@@ -173,7 +177,7 @@ def square_tiled(name):
         f'4 × 4:\n`square_tiled_surface("{name}", 4)`.\n\n'
         + shown(square_tiled_period_matrix(name), formulas[name])
     )
-    return f"{name}.json", gluing(K), K.n_vertices, K.n_faces, 2, text
+    return f"{name}.json", exact_gluing(K), K.n_vertices, K.n_faces, 2, text
 
 
 def shown(Pi, formula):
@@ -200,6 +204,11 @@ def gluing(K):
     lengths = ",\n".join("[" + ", ".join(map(decimal, row)) + "]" for row in K.lengths)
     twin = ",\n".join(json.dumps(row) for row in K.twin.tolist())
     return f'{{"lengths": [\n{lengths}\n],\n"twin": [\n{twin}\n]}}\n'
+
+
+def exact_gluing(K):
+    """The same with exact lengths, as the library writes it."""
+    return K.to_json().replace("], [", "],\n[") + "\n"
 
 
 def decimal(x):

@@ -11,12 +11,12 @@ import os, time
 from igl_periods.meshes import surface_files
 from igl_periods.batch import rows as batch_rows
 
-def read_surface(path, repair=False):
+def read_surface(path, **how):
     if "poison" in str(path):
         os.kill(os.getpid(), 9)
     if "slow" in str(path):
         time.sleep(0.1)
-    return surface_files.read_surface(path, repair)
+    return surface_files.read_surface(path, **how)
 
 batch_rows.read_surface = read_surface
 """

@@ -46,8 +46,7 @@ def test_a_row_holds_the_reduced_matrix_bit_for_bit(name):
         if name.endswith("off"):
             pm = ip.period_matrix(*ip.load_mesh(surface)[:2]).reduced()
         else:
-            gluing = json.loads(surface.read_text())
-            pm = ip.period_matrix(ip.DeltaComplex.from_gluing(**gluing)).reduced()
+            pm = ip.period_matrix(ip.DeltaComplex.from_json(surface.read_text())).reduced()
     assert np.array_equal(matrix(row), pm.matrix)
     assert row["bound"] == pm.bound
     assert row["entry_bound"] == pm.entry_bounds.max()
@@ -68,8 +67,8 @@ def test_options_reach_the_computation():
     fine, plain = (rows_of(path, BatchOptions(degree=p))[0] for p in (3, 1))
     assert fine["bound"] < 0.1 * plain["bound"]
     assert json.loads(fine["options"]) == {
-        "repair": False, "double": False, "weights": "intrinsic", "delaunay": True, "degree": 3,
-        "tolerance": None, "rigorous": False,
+        "repair": False, "weld": 1e-9, "largest_hole": 0, "double": False, "weights": "intrinsic",
+        "delaunay": True, "degree": 3, "tolerance": None, "rigorous": False, "max_memory": None,
     }  # fmt: skip
     (met,) = rows_of(path, BatchOptions(tolerance=1e-6))
     assert met["bound"] < 1e-6
@@ -85,6 +84,12 @@ def test_options_reach_the_computation():
         ({"weights": "other"}, "weights must be"),
         ({"tolerance": -1.0}, "always positive"),
         ({"degree": 3, "tolerance": 1e-3}, "a tolerance chooses the degree"),
+        ({"repair": True, "weld": 0.5}, "within a part of the diagonal"),
+        ({"repair": True, "largest_hole": -1}, "largest_hole = -1: holes have a number of edges"),
+        ({"repair": True, "largest_hole": "3"}, "largest_hole must be an integer, not the string"),
+        ({"max_memory": "2 GB"}, "max_memory must be a number"),
+        ({"max_memory": -1.0}, "a limit is not negative"),
+        ({"rigorous": 1}, "rigorous must be True or False"),
     ],
 )
 def test_contradictory_options(options, message):
@@ -153,6 +158,32 @@ def test_repair_makes_a_surface(tmp_path):
     assert f"torn into {len(F)} pieces" in row["error"]
     (row,) = rows_of(path, BatchOptions(repair=True))
     assert (row["genus"], row["vertices"]) == (1, 42)
+
+
+def test_how_far_a_repair_goes(tmp_path):
+    V, F = noisy_torus(7, 6, 0.1, 1)
+    # Corners of their own, 1e-6 away from each other, and a triangle less.
+    apart = V[F[1:]] * (1.0 + 1e-6 * np.arange(len(F) - 1)[:, None, None] / len(F))
+    path = tmp_path / "torn.obj"
+    corners = np.arange(3 * (len(F) - 1)).reshape(-1, 3)
+    igl.write_triangle_mesh(str(path), apart.reshape(-1, 3), corners)
+    options = {"repair": True, "weld": 1e-5}
+    assert len(rows_of(path, BatchOptions(repair=True))) == len(F) - 1
+    (row,) = rows_of(path, BatchOptions(**options))
+    assert "3 boundary edges" in row["error"]
+    (row,) = rows_of(path, BatchOptions(**options, largest_hole=3))
+    # A hole is filled with a vertex in its middle.
+    assert (row["genus"], row["vertices"], row["error"]) == (1, 43, None)
+    told = json.loads(row["options"])
+    assert (told["repair"], told["weld"], told["largest_hole"]) == (True, 1e-5, 3)
+
+
+def test_a_file_that_takes_too_much_memory_is_refused():
+    (row,) = rows_of(DATA / "lawson_2_1.off", BatchOptions(max_memory=1e3))
+    assert row["error_kind"] == "MemoryLimitError"
+    assert row["genus"] is None
+    (row,) = rows_of(DATA / "lawson_2_1.off", BatchOptions(max_memory=1e9))
+    assert (row["genus"], json.loads(row["options"])["max_memory"]) == (2, 1e9)
 
 
 @pytest.mark.parametrize(

@@ -19,7 +19,7 @@ def test_components_are_computed_one_by_one(tmp_path, capsys):
         str(path), np.concatenate([V, W + 9.0]), np.concatenate([F, G + len(V)])
     )
     assert main(["compute", str(path)]) == 1
-    assert "--component" in capsys.readouterr().err
+    assert capsys.readouterr().err.count("one by one") == 1
     assert main(["compute", str(path), "--component", "all"]) == 0
     assert "Component 2 of 2" in capsys.readouterr().out
     assert main(["compute", str(path), "--component", "all", "--json"]) == 0
@@ -29,6 +29,10 @@ def test_components_are_computed_one_by_one(tmp_path, capsys):
     assert json.loads(capsys.readouterr().out)["surface"]["vertices"] == 42
     assert main(["compute", str(path), "--component", "3"]) == 1
     assert "there is no component 3" in capsys.readouterr().err
+    one = tmp_path / "one.off"
+    igl.write_triangle_mesh(str(one), V, F)
+    assert main(["compute", str(one), "--component", "2"]) == 1
+    assert "there is no component 2: there is only one." in capsys.readouterr().err
 
 
 def test_the_double_of_a_surface_with_boundary(tmp_path, capsys):

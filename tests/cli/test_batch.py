@@ -5,6 +5,7 @@ import sys
 
 import pytest
 
+from igl_periods.batch import BatchOptions, BatchResult
 from igl_periods.cli.batch import _refusals_in_words
 from igl_periods.cli.program import main
 
@@ -33,6 +34,10 @@ def test_refusals(tmp_path, capsys, arguments, code, message):
         (["meshes", "-o", "x.xlsx"], "a table has a name in .parquet or .csv, not 'x.xlsx'"),
         (["meshes", "-o", "x.csv", "--degree", "0"], "degree 1 at least"),
         (["meshes", "-o", "x.parquet", "--workers", "0"], "at least 1"),
+        (["meshes", "-o", "x.csv", "--weld", "0.5"], "a part of the diagonal"),
+        (["meshes", "-o", "x.csv", "--fill-holes", "-1"], "a number of edges"),
+        (["meshes", "-o", "x.csv", "--max-memory", "0"], "a number of gigabytes above 0"),
+        (["a.json", "b.json", "-o", "x.csv", "--repair"], "--repair has no effect on gluings"),
         (["meshes", "-o", "x.parquet", "--workers", "2", "--scheduler", "x"], "not allowed with"),
     ],
 )
@@ -41,6 +46,31 @@ def test_wrong_usage(arguments, message, capsys):
         main(["batch", *arguments])
     assert exit_.value.code == 2
     assert message in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "chosen"),
+    [
+        ("", {}),
+        ("--repair", {"repair": True}),
+        ("--weld 1e-6", {"repair": True, "weld": 1e-6}),
+        ("--fill-holes 4 --double", {"repair": True, "largest_hole": 4, "double": True}),
+        ("--max-memory 2 --tolerance 1e-3", {"max_memory": 2e9, "tolerance": 1e-3}),
+        ("--no-delaunay --rigorous", {"delaunay": False, "rigorous": True}),
+    ],
+)
+def test_options_reach_every_file(tmp_path, monkeypatch, arguments, chosen):
+    (tmp_path / "a.off").touch()
+    asked = []
+
+    def run(files, output, options, **how):
+        asked.append(options)
+        return BatchResult([], 0, len(files))
+
+    monkeypatch.setattr("igl_periods.batch.run_batch", run)
+    output = str(tmp_path / "x.csv")
+    assert main(["batch", str(tmp_path), "-o", output, *arguments.split()]) == 0
+    assert asked == [BatchOptions(**chosen)]
 
 
 def test_dask_and_arrow_are_imported_by_nothing_else():

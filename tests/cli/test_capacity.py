@@ -58,6 +58,20 @@ def test_files_that_hold_no_polygon(tmp_path, capsys, text, message):
     assert message in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["plate.geojson", "--fill-holes", "3"], "--fill-holes has no effect on polygons"),
+        (["plate.geojson", "--lattice", "1,0"], "--lattice has no effect on polygons"),
+        (["plate.off", "--double"], "there is no option --double"),
+    ],
+)
+def test_options_without_effect(capsys, arguments, message):
+    with pytest.raises(SystemExit):
+        main(["capacity", *arguments])
+    assert message in capsys.readouterr().err
+
+
 def test_closed_surfaces_have_no_capacities(torus, capsys):
     assert main(["capacity", str(torus)]) == 1
     assert "has no boundary" in capsys.readouterr().err

@@ -121,3 +121,11 @@ def test_identify_in_balls(tmp_path, capsys):
 def test_tolerances_below_double_precision_point_here(capsys):
     assert main(["compute", str(DATA / "omega_1.json"), "--tolerance", "1e-20"]) == 0
     assert "igl-periods enclose" in capsys.readouterr().err
+
+
+def test_the_limit_of_memory_is_in_gigabytes(torus_file, capsys):
+    arguments = ["enclose", str(torus_file), "--digits", "6", "--max-memory"]
+    assert main([*arguments, "2"]) == 0
+    assert "digits are proved" in capsys.readouterr().out
+    assert main([*arguments, "1e-6"]) == 1
+    assert "stars and faces take about" in capsys.readouterr().err

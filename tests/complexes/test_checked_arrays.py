@@ -23,7 +23,7 @@ def test_any_integer_or_float_type_and_lists_are_accepted():
 def test_coordinates_that_are_not_finite(bad):
     V = POINTS.copy()
     V[2, 1] = bad
-    with pytest.raises(ip.MeshError, match=r"1 vertices have coordinates .* vertex 2"):
+    with pytest.raises(ip.MeshError, match=r"1 vertex has coordinates .* vertex 2"):
         ip.DeltaComplex.from_mesh(V, TETRAHEDRON)
 
 

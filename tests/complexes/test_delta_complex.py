@@ -83,6 +83,7 @@ def test_labels_far_apart():
     ("F", "message"),
     [
         (TETRAHEDRON + 1, r"vertex 4, out of range: V has 4 rows.*counted from 1"),
+        (2 * TETRAHEDRON, r"vertex 6, out of range: V has 4 rows, counted from 0\.$"),
         (TETRAHEDRON - 1, r"negative indices \(the least is -1\)"),
         ([[0, 1, 1], [0, 3, 1]], r"1 faces repeat a vertex; the first is face 0"),
         (np.zeros((4, 4), int), r"shape \(m, 3\), not \(4, 4\)"),

@@ -157,6 +157,8 @@ def test_other_refusals():
     P = np.vstack([np.zeros(3), 0.4 * np.eye(3)])
     with pytest.raises(ip.MeshError, match="do not close up"):
         ip.DeltaComplex.from_mesh(P, tetrahedron, lattice=[[0.41, -0.41, 0.1]])
+    with pytest.raises(ip.MeshError, match="glues nothing: the mesh is closed"):
+        ip.DeltaComplex.from_mesh(P, tetrahedron, lattice=[[3.0, 0.0, 0.0]])
     # A coarse tolerance joins neighbours along the boundary in chains.
     V, F = cell(40, 40, [1, 0], [0, 1])
     with pytest.raises(ip.MeshError, match="chain of vertices"):

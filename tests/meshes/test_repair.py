@@ -113,6 +113,19 @@ def test_repair_refuses_what_leaves_nothing():
         repair_mesh(np.full((3, 3), np.nan), np.array([[0, 1, 2]]))
 
 
+@pytest.mark.parametrize(
+    ("size", "message"),
+    [
+        (-1, "largest_hole = -1: holes have a number of edges"),
+        (2.5, "largest_hole must be an integer, not 2.5"),
+        ("4", "largest_hole must be an integer, not the string '4'"),
+    ],
+)
+def test_sizes_of_holes_are_numbers_of_edges(size, message):
+    with pytest.raises(ip.MeshError, match=message):
+        repair_mesh(*torus(), largest_hole=size)
+
+
 @pytest.mark.parametrize("function", [repair_mesh, split_components])
 def test_arrays_that_are_no_mesh_are_refused(function):
     V = np.eye(3)

@@ -86,6 +86,8 @@ def test_limit():
     assert len(first) == 5
     assert not first.complete
     assert first.verdict == "5 transformations within 2e-08, and there may be more"
+    one = symplectic_isomorphisms(Pi, Pi, limit=1)
+    assert one.verdict == "1 transformation within 2e-08, and there may be more"
     everything = symplectic_isomorphisms(Pi, Pi, limit=48)
     assert everything.complete
     assert everything.verdict == "48 transformations within 2e-08"

@@ -110,7 +110,7 @@ def test_flips_that_are_impossible_are_refused():
     around = {name: np.array([int(K.edge[f, s])]) for name, f, s in
               (("second", 0, 0), ("third", 0, 2), ("first", 2, 0), ("fourth", 2, 1))}  # fmt: skip
     impossible = dataclasses.replace(rounds[0], edge=np.array([first]), **around)
-    with pytest.raises(ip.ComplexError, match="rounding hides whether 1 edges can be flipped"):
+    with pytest.raises(ip.ComplexError, match="rounding hides whether 1 edge can be flipped"):
         after_flips(stored_lengths(K), [impossible])
 
 

@@ -1,5 +1,7 @@
 """Matrices of recognised numbers."""
 
+import pickle
+
 import flint
 import pytest
 
@@ -43,3 +45,9 @@ def test_what_is_not_recognised_is_left_out():
 
 def test_no_entries():
     assert recognise_matrix(flint.acb_mat(0, 0)).complete
+
+
+def test_results_pickle():
+    with flint.ctx.workdps(40):
+        found = recognise_matrix(bolza())
+    assert pickle.loads(pickle.dumps(found)) == found

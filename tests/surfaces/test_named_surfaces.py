@@ -8,7 +8,11 @@ from support.quadrature_periods import period_matrix as curve_period_matrix
 
 from igl_periods.moduli.equivalence import moduli_distance, symplectic_isomorphisms
 from igl_periods.surfaces import lawson_period_matrix
-from igl_periods.surfaces.named_surfaces import binomial_period_matrix, catalogue
+from igl_periods.surfaces.named_surfaces import (
+    binomial_period_matrix,
+    catalogue,
+    polygon_period_matrix,
+)
 
 ROOT2, ROOT7 = 2**0.5, 7**0.5
 
@@ -42,6 +46,31 @@ def test_no_two_entries_are_the_same_surface(genus):
         found = symplectic_isomorphisms(one.matrix, two.matrix, 1e-3)
         assert found == [], f"{one.name} and {two.name} are the same surface"
         assert found.complete
+
+
+@pytest.mark.parametrize("genus", range(1, 6))
+def test_regular_polygons_by_quadrature(genus):
+    """y² = x^{2g+1} − x: branch points 0, ∞ and the roots of unity."""
+    points = [0, *np.exp(2j * np.pi * np.arange(2 * genus) / (2 * genus))]
+    exact = curve_period_matrix(2, np.array(points))
+    assert symplectic_isomorphisms(polygon_period_matrix(genus), exact, 1e-8)
+
+
+def test_polygons_refused():
+    with pytest.raises(ValueError, match="a 4g-gon"):
+        polygon_period_matrix(0)
+
+
+@pytest.mark.parametrize("name", ["golden L", "L(3/2)", "L(3)"])
+def test_l_shapes_are_equations(name):
+    """Their aliases are equations whose period matrices by quadrature are the same."""
+    coefficients = {
+        "golden L": [1, 0, 5, 0, 5, 0],
+        "L(3/2)": [1, 0, 33 * (4 + 3 * ROOT2) / 8, 0, 33 * (4 + 3 * ROOT2) / 8, 0, 1],
+        "L(3)": [135, 0, 161, 0, 48, 0],
+    }[name]
+    exact = curve_period_matrix(2, np.roots(coefficients))
+    assert symplectic_isomorphisms(surface(name, 2).matrix, exact, 1e-8)
 
 
 @pytest.mark.parametrize("n", range(3, 13))

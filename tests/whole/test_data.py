@@ -1,6 +1,5 @@
 """The surfaces in data/: written by the script, byte for byte, and with the matrices stated."""
 
-import json
 import re
 from pathlib import Path
 
@@ -50,7 +49,7 @@ def stated(name):
 
 def loaded(name):
     if name.endswith(".json"):
-        return ip.DeltaComplex.from_gluing(**json.loads((DATA / name).read_text()))
+        return ip.DeltaComplex.from_json((DATA / name).read_text())
     V, F, _ = ip.load_mesh(DATA / name)
     return ip.DeltaComplex.from_mesh(V, F)
 

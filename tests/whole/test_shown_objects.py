@@ -91,7 +91,10 @@ def test_a_notebook_shows_a_table_that_is_whole(objects):
 
 
 def test_no_class_of_a_face_dumps_its_arrays():
-    packages = "complexes topology forms siegel moduli surfaces periods differentials meshes batch"
+    packages = (
+        "complexes topology forms siegel moduli surfaces periods differentials meshes batch "
+        "jacobians"
+    )
     for package in packages.split():
         for name, thing in vars(importlib.import_module(f"igl_periods.{package}")).items():
             if not (inspect.isclass(thing) and dataclasses.is_dataclass(thing)):
