@@ -156,10 +156,15 @@ from .curves import (
 from .domains import (
     CapacityEnclosure,
     CapacityMatrix,
+    EffectiveConductivity,
+    EnergyBlocks,
     ExtremalLength,
     capacity_matrix,
+    effective_conductivity,
     enclosed_capacities,
+    energy_blocks,
     extremal_length,
+    read_domain,
 )
 from .deformations import (
     Deformation,
@@ -215,6 +220,11 @@ __all__ = [
     "CapacityEnclosure",
     "extremal_length",
     "ExtremalLength",
+    "energy_blocks",
+    "EnergyBlocks",
+    "effective_conductivity",
+    "EffectiveConductivity",
+    "read_domain",
     # the Siegel upper half-space
     "siegel_reduce",
     "siegel_transform",

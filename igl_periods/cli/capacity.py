@@ -5,12 +5,10 @@ from __future__ import annotations
 import argparse
 import importlib.metadata
 import json
-from pathlib import Path
 from typing import Any
 
 from igl_periods.complexes import DeltaComplex
-from igl_periods.domains import CapacityMatrix, capacity_matrix
-from igl_periods.errors import MeshError
+from igl_periods.domains import CapacityMatrix, capacity_matrix, is_domain_file, read_domain
 from igl_periods.surfaces import planar_domain
 
 from .arguments import (
@@ -20,6 +18,7 @@ from .arguments import (
     add_reading_arguments,
     read_complex,
 )
+from .domain_pictures import add_domain_picture_arguments, claim_picture, draw_domain
 from .parser import Parser, refuse_without_effect
 from .terminal import say
 
@@ -35,9 +34,10 @@ def add_capacity(commands: Commands) -> None:
         "proved bounds.",
     )
     command.add_argument(
-        "mesh", metavar="MESH", help="a mesh with a boundary, or a polygon with holes (.geojson)"
+        "mesh",
+        metavar="MESH",
+        help="a mesh with a boundary, or a polygon with holes (.geojson, .svg)",
     )
-    command.checks.append(_check_polygon)
     add_reading_arguments(command)
     add_lattice_argument(command)
     command.add_argument(
@@ -48,43 +48,38 @@ def add_capacity(commands: Commands) -> None:
         help=f"raise the degree until the relative bound is at most R ({_TOLERANCE:g})",
     )
     command.add_argument("--json", action="store_true", help="print one JSON document")
+    add_domain_picture_arguments(command)
+    command.checks.append(_check_domain)
     command.set_defaults(run=_capacity)
 
 
 def _capacity(options: argparse.Namespace) -> int:
-    K = _domain(options.mesh) if _is_polygon(options) else read_complex(options)[0]
+    claim_picture(options)
+    K = _surface(options)
     C = capacity_matrix(K, tolerance=options.tolerance)
     if options.json:
         say(json.dumps(_document(C), indent=1))
-        return 0
-    say(repr(C))
-    for k, loop in enumerate(C.loops):
-        say(f"loop {k + 1}: {loop!r}, length {loop.length:.6g}")
+    else:
+        say(repr(C))
+        for k, loop in enumerate(C.loops):
+            say(f"loop {k + 1}: {loop!r}, length {loop.length:.6g}")
+    if options.picture is not None:
+        drawn = draw_domain(K, options)
+        if not options.json:
+            say(drawn)
     return 0
 
 
-def _is_polygon(options: argparse.Namespace) -> bool:
-    return str(options.mesh).lower().endswith(".geojson")
-
-
-def _check_polygon(command: Parser, options: argparse.Namespace) -> None:
-    if _is_polygon(options):
-        why = "on polygons (.geojson), which are taken as they are"
+def _check_domain(command: Parser, options: argparse.Namespace) -> None:
+    if is_domain_file(options.mesh):
+        why = "on polygons (.geojson, .svg), which are taken as they are"
         refuse_without_effect(command, options, (*REPAIR_OPTIONS, "lattice"), why)
 
 
-def _domain(path: str) -> DeltaComplex:
-    """The polygon of a GeoJSON file: a geometry, a feature, or a collection of one feature."""
-    try:
-        geometry = json.loads(Path(path).read_text(encoding="utf-8"))
-        geometry = geometry["features"][0] if "features" in geometry else geometry
-        geometry = geometry.get("geometry", geometry)
-        if geometry["type"] != "Polygon":
-            raise MeshError(f"the first geometry is a {geometry['type']}: a Polygon is needed.")
-        outer, *holes = geometry["coordinates"]
-    except (KeyError, IndexError, TypeError, AttributeError, json.JSONDecodeError) as error:
-        raise MeshError(f"this is no GeoJSON file with a polygon ({error}).") from error
-    return DeltaComplex.from_mesh(*planar_domain(outer, holes))
+def _surface(options: argparse.Namespace) -> DeltaComplex:
+    if is_domain_file(options.mesh):
+        return DeltaComplex.from_mesh(*planar_domain(*read_domain(options.mesh)))
+    return read_complex(options)[0]
 
 
 def _document(C: CapacityMatrix) -> dict[str, Any]:

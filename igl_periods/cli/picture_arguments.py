@@ -20,6 +20,7 @@ from igl_periods.pictures import (
     cut_scene,
     cycles_scene,
     density_scene,
+    periodic_copies,
     quadratic_scene,
     quality_scene,
     sensitivity_scene,
@@ -78,7 +79,30 @@ def add_scene_arguments(command: Parser) -> None:
         help="; ".join(f"{kind}: {what}" for kind, what in _KINDS.items()),
     )
     add_form_argument(command)
+    add_copies_argument(command)
     command.checks.append(_check_scene)
+
+
+def add_copies_argument(command: Parser) -> None:
+    """Add how many copies of a periodic cell are shown."""
+    command.add_argument(
+        "--copies",
+        type=_copies,
+        default=(1,),
+        metavar="N | N1,…,NK",
+        help="copies of the cell along each translation of --lattice (1)",
+    )
+    command.checks.append(_check_copies)
+
+
+def _check_copies(command: Parser, options: argparse.Namespace) -> None:
+    if options.lattice is None:
+        refuse_without_effect(command, options, ("copies",), "without --lattice")
+    elif len(options.copies) not in (1, len(options.lattice)):
+        raise ValueError(
+            f"--copies takes one number, or {len(options.lattice)}, one for each translation of "
+            "--lattice."
+        )
 
 
 def add_form_argument(command: Parser) -> None:
@@ -119,8 +143,12 @@ def reduced_matrix(K: DeltaComplex, options: argparse.Namespace) -> PeriodMatrix
 
 
 def chosen_scene(options: argparse.Namespace) -> Scene:
-    """What is to be shown."""
+    """What is to be shown, in all copies of a cell."""
     K, _ = chosen_surface(options)
+    return periodic_copies(_scene(K, options), K.cell, options.copies)
+
+
+def _scene(K: DeltaComplex, options: argparse.Namespace) -> Scene:
     surface_in_space(K)
     if K.euler_characteristic == 2 and options.show != "quality":
         raise ComplexError(
@@ -166,6 +194,13 @@ def _check_form(form: str | int | Complexes, K: DeltaComplex) -> None:
             f"--form takes {genus} coefficients, one for each form of genus {genus}, not "
             f"{form.size}."
         )
+
+
+def _copies(text: str) -> tuple[int, ...]:
+    numbers = text.split(",")
+    if not all(number.isdecimal() and int(number) > 0 for number in numbers):
+        raise argparse.ArgumentTypeError(f"numbers of copies are 2 or 2,2,1, not {text!r}")
+    return tuple(map(int, numbers))
 
 
 def _pair(form: str | int | Complexes) -> tuple[int, int]:

@@ -8,7 +8,13 @@ from pathlib import Path
 from igl_periods.machine import require
 
 from .arguments import Commands, add_output_argument, claim
-from .picture_arguments import add_picture_command, chosen_surface, how_computed, reduced_matrix
+from .picture_arguments import (
+    add_copies_argument,
+    add_picture_command,
+    chosen_surface,
+    how_computed,
+    reduced_matrix,
+)
 from .terminal import say
 
 
@@ -16,6 +22,7 @@ def add_report(commands: Commands) -> None:
     """Add the command to the parser of ``igl-periods``."""
     report = add_picture_command(commands, "report", "write a page about a mesh", _report)
     add_output_argument(report, "an HTML page", ".html", ".htm")
+    add_copies_argument(report)
 
 
 def _report(options: argparse.Namespace) -> int:
@@ -26,6 +33,13 @@ def _report(options: argparse.Namespace) -> int:
     K, mesh = chosen_surface(options)
     pm = reduced_matrix(K, options)
     remarks = how_computed(options, pm)
-    write_report(options.output, pm, name=Path(options.mesh).name, mesh=mesh, remarks=remarks)
+    write_report(
+        options.output,
+        pm,
+        name=Path(options.mesh).name,
+        mesh=mesh,
+        remarks=remarks,
+        copies=options.copies,
+    )
     say(f"wrote {options.output}")
     return 0

@@ -11,6 +11,7 @@ from igl_periods.reports import parametrization_in_words
 
 from .arguments import Commands, add_output_argument, claim
 from .picture_arguments import (
+    add_copies_argument,
     add_form_argument,
     add_picture_command,
     chosen_parametrization,
@@ -31,6 +32,7 @@ def add_texture(commands: Commands) -> None:
         "--scale", type=_scale, help="texture coordinates are this times z = ∫ζ; default: automatic"
     )
     add_form_argument(texture)
+    add_copies_argument(texture)
 
 
 def _texture(options: argparse.Namespace) -> int:
@@ -44,7 +46,7 @@ def _texture(options: argparse.Namespace) -> int:
     surface_in_space(K)
     pm = reduced_matrix(K, options)
     P = chosen_parametrization(pm, options.form)
-    files = writers[suffix](options.output, P, options.scale)
+    files = writers[suffix](options.output, P, options.scale, options.copies)
     say(f"wrote {', '.join(str(file) for file in files)}")
     say("\n".join(parametrization_in_words(P) + how_computed(options, pm)))
     return 0

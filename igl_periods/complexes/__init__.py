@@ -91,7 +91,7 @@ from .exact_numbers import (
 )
 from .number_readers import Point, exact_number, read_point
 from .polygon_gluings import GluedPolygons
-from .lattices import LatticeGluing, checked_lattice, lattice_gluing
+from .lattices import Cell, LatticeGluing, checked_lattice, lattice_gluing
 from .mesh_readers import is_array_like, mesh_reader
 from .delta_complex import DeltaComplex
 from .surface_arguments import (
@@ -145,6 +145,7 @@ __all__ = [
     "is_array_like",
     "mesh_reader",
     "LatticeGluing",
+    "Cell",
     "checked_lattice",
     "lattice_gluing",
     "DeltaComplex",

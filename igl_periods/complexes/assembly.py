@@ -91,6 +91,7 @@ def _restricted(K: DeltaComplex, chosen: Ints, new_face: Ints) -> DeltaComplex:
         "positions": None if K.positions is None else K.positions[vertices],
         "mollification": K.mollification,
         "distortion": None if K.distortion is None else K.distortion[chosen],
+        "cell": None if K.cell is None else K.cell.of_faces(chosen),
     }
     return replace(K, **part, exact_lengths=None, polygons=None)
 

@@ -114,6 +114,7 @@ def insert_barycentres(
         n_edges=K.n_edges + 3 * r,
         labels=np.concatenate([K.labels, np.full(r, -1)]),
         positions=None,
+        cell=None,
     )
     before = np.zeros(m) if K.distortion is None else K.distortion
     distortion = np.concatenate([before, before[faces], before[faces]])

@@ -145,6 +145,7 @@ def delaunay_flips(K: DeltaComplex) -> tuple[DeltaComplex, list[Flips]]:
         corner_vertex=mesh.corner_vertex.reshape(-1, 3),
         distortion=mesh.distortion_when_rounded(),
         exact_lengths=None,
+        cell=None,
         polygons=None,
     )
     return flipped, rounds

@@ -59,7 +59,7 @@ from .gluings import (
     reversing_sides,
     twins_of_faces,
 )
-from .lattices import lattice_gluing
+from .lattices import Cell, lattice_gluing
 from .mesh_readers import vertices_and_faces
 from .polygon_gluings import GluedPolygons, glued_polygons, lengths_of_polygons
 from .surface_checks import check_surface, topology_in_words
@@ -106,6 +106,8 @@ class DeltaComplex(ReadOnlyArrays):
         The lengths of the edges as balls, for a precision in bits, where the doubles in ``lengths``
         are rounded (:mod:`igl_periods.complexes.exact_lengths`); what is proved is proved about
         these.  Where there is no such function, the doubles are the lengths, exactly.
+    cell : Cell or None
+        Where the faces of the quotient of a periodic surface lie in space.
     polygons : GluedPolygons or None
         The polygons of the plane that the surface was glued from, whose triangles the faces are.
     """
@@ -122,6 +124,7 @@ class DeltaComplex(ReadOnlyArrays):
     mollification: float = 0.0
     distortion: Floats | None = None
     exact_lengths: ExactLengths | None = None
+    cell: Cell | None = None
     polygons: GluedPolygons | None = None
 
     def __repr__(self) -> str:
@@ -371,4 +374,4 @@ def _quotient(V: Floats, F: Ints, lattice: ArrayLike, tolerance: float) -> Delta
     K = DeltaComplex(**assembled(glued.lengths, glued.twin, glued.same))
     labels = np.full(K.n_vertices, len(V), dtype=np.int64)
     np.minimum.at(labels, K.corner_vertex, F)
-    return replace(K, labels=labels)
+    return replace(K, labels=labels, cell=glued.cell)

@@ -120,6 +120,7 @@ def double(K: DeltaComplex, *, along: ArrayLike | None = None) -> DeltaComplex:
         labels=K.labels[below],
         positions=None if K.positions is None else K.positions[below],
         mollification=K.mollification,
+        cell=None if K.cell is None else K.cell.doubled(),
     )
 
 

@@ -11,8 +11,8 @@ Sides have the lengths that they have in the cell.  A mesh may also be closed al
 joining vertices across the cell ("wrapped").  Then the vector of a side is the shortest one among
 those that differ by Λ, and the three of a face have to add up to 0.
 
-The quotient has no positions, since no map of it into space is meant; ``labels`` are rows of V, and
-V and F still show the cell.
+A vertex of the quotient has no position, but a corner of a face has one: the quotient keeps its
+``cell``, which is what pictures show.
 """
 
 from __future__ import annotations
@@ -34,6 +34,44 @@ _LEAST_VOLUME = 1e-9
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class Cell:
+    """Where the faces of the quotient of a periodic surface lie in space.
+
+    Attributes
+    ----------
+    corners : (m, 3, d) float
+        The corners of each face; of the two sides of an edge, one is a translate of the other.
+    lattice : (k, d) float
+        One to three independent translations.
+    """
+
+    corners: Floats
+    lattice: Floats
+
+    def __repr__(self) -> str:
+        return f"Cell({len(self.corners)} faces, {len(self.lattice)} translations)"
+
+    def of_faces(self, face: Ints) -> Cell:
+        """Some of the faces, in the order they are given in."""
+        return Cell(self.corners[face], self.lattice)
+
+    def doubled(self) -> Cell:
+        """With the copy of each face, whose corners are those with the numbers 0, 2, 1."""
+        return Cell(np.concatenate([self.corners, self.corners[:, [0, 2, 1]]]), self.lattice)
+
+    def divided(self) -> Cell:
+        """With each face divided into four, the last one in the middle."""
+        middle = 0.5 * (np.roll(self.corners, -1, axis=1) + np.roll(self.corners, 1, axis=1))
+        children = np.stack([middle] * 4, axis=1)
+        for i in range(3):
+            # At corner i the child has the corner itself, and the middles of both sides there.
+            j, k = (i + 1) % 3, (i + 2) % 3
+            children[:, i, i] = self.corners[:, i]
+            children[:, i, j], children[:, i, k] = middle[:, k], middle[:, j]
+        return Cell(children.reshape(-1, *self.corners.shape[1:]), self.lattice)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class LatticeGluing:
     """The sides of a cell glued by a lattice, and what that took.
 
@@ -43,6 +81,7 @@ class LatticeGluing:
         Means of those of glued sides.
     twin, same : (m, 3) int, (m, 3) bool
         As for :meth:`DeltaComplex.from_gluing`.
+    cell : Cell
     n_glued : int
         Edges that the lattice glued from two sides of the boundary, or wrapped.
     gap : float
@@ -52,6 +91,7 @@ class LatticeGluing:
     lengths: Floats
     twin: Ints
     same: Bools
+    cell: Cell
     n_glued: int
     gap: float
 
@@ -85,15 +125,18 @@ def lattice_gluing(
     reach = tolerance * float(np.linalg.norm(L, axis=1).min())
     twin, same = twins_of_faces(F, np.arange(len(V)))
     if twin.min() >= 0:
-        lengths, n_wrapped = _wrapped_lengths(V, F, L, reach)
+        sides, lengths, n_wrapped = _wrapped_sides(V, F, L, reach)
         if n_wrapped == 0:
             raise MeshError(
                 "the lattice glues nothing: the mesh is closed, and no side of it reaches across "
                 f"the cell. Look at the translations {np.array2string(L, precision=6)}."
             )
-        return LatticeGluing(lengths, twin, same, n_wrapped, 0.0)
-    point, cell, gap = _points(V, F, twin, L, reach)
-    n_glued = _glue(twin, same, F, point, cell)
+        # Corner 1 is where side 2 leads from corner 0; side 1 leads from corner 2 to corner 0.
+        steps = np.stack([np.zeros_like(sides[:, 0]), sides[:, 2], -sides[:, 1]], axis=1)
+        cell = Cell(V[F[:, :1]] + steps, L)
+        return LatticeGluing(lengths, twin, same, cell, n_wrapped, 0.0)
+    point, place, gap = _points(V, F, twin, L, reach)
+    n_glued = _glue(twin, same, F, point, place)
     if n_glued == 0:
         raise MeshError(
             "the lattice glues nothing: no two sides of the boundary are translates of each other "
@@ -102,7 +145,7 @@ def lattice_gluing(
     sides = V[np.roll(F, 1, axis=1)] - V[np.roll(F, -1, axis=1)]
     lengths = np.linalg.norm(sides, axis=2)
     other = np.where(twin >= 0, lengths.ravel()[twin], lengths)
-    return LatticeGluing(0.5 * (lengths + other), twin, same, n_glued, gap)
+    return LatticeGluing(0.5 * (lengths + other), twin, same, Cell(V[F], L), n_glued, gap)
 
 
 def checked_lattice(lattice: ArrayLike, d: int) -> Floats:
@@ -211,8 +254,8 @@ def _is_less(A: Ints, B: Ints) -> Bools:
     return np.asarray(differ.any(axis=1) & (A[row, first] < B[row, first]))
 
 
-def _wrapped_lengths(V: Floats, F: Ints, L: Floats, reach: float) -> tuple[Floats, int]:
-    """Lengths of minimal images of the sides of a closed mesh, and how many edges are wrapped."""
+def _wrapped_sides(V: Floats, F: Ints, L: Floats, reach: float) -> tuple[Floats, Floats, int]:
+    """Minimal images of the sides of a closed mesh, their lengths, how many edges are wrapped."""
     sides = V[np.roll(F, 1, axis=1)] - V[np.roll(F, -1, axis=1)]
     rounded = np.rint(sides @ np.linalg.pinv(L))
     best, shortest = sides - rounded @ L, np.full(F.shape, np.inf)
@@ -233,4 +276,4 @@ def _wrapped_lengths(V: Floats, F: Ints, L: Floats, reach: float) -> tuple[Float
             "boundary."
         )
     wrapped = np.linalg.norm(best - sides, axis=2) > reach
-    return shortest, int(np.count_nonzero(wrapped)) // 2
+    return best, shortest, int(np.count_nonzero(wrapped)) // 2

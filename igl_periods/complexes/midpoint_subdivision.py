@@ -79,6 +79,7 @@ def split(K: DeltaComplex, cochains: csr_array) -> tuple[DeltaComplex, csr_array
         positions=positions,
         mollification=0.5 * K.mollification,
         distortion=None if K.distortion is None else np.repeat(K.distortion, 4),
+        cell=None if K.cell is None else K.cell.divided(),
     )
     return refined, (cochains @ _carry(K, refined)).tocsr()
 

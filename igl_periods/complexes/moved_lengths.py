@@ -63,6 +63,7 @@ def with_edge_lengths(K: DeltaComplex, lengths: ArrayLike) -> DeltaComplex:
         distortion=None,
         exact_lengths=None,
         polygons=None,
+        cell=None,
     )
 
 

@@ -107,6 +107,22 @@ class CapacityMatrix:
         return Bounds(mean - error, mean + error)
 
     @property
+    def conjugate(self) -> Floats:
+        """Energies of fields with the flux 1 through one of C_2 … C_n; (n − 1, n − 1).
+
+        By the classes of loops the differentials *du_i have the periods C_ij; normalised to the
+        periods δ_ij they have these energies, the inverse of ``grounded``.
+        """
+        return np.asarray(np.linalg.inv(self.grounded), dtype=np.float64)
+
+    @property
+    def conjugate_bounds(self) -> Bounds:
+        """Lower ≤ ``conjugate`` ≤ upper in the Loewner order."""
+        lower, upper = self._grounded_bounds
+        inverse = (np.asarray(np.linalg.inv(bound), np.float64) for bound in (upper, lower))
+        return Bounds(*inverse)
+
+    @property
     def resistances(self) -> Floats:
         """Resistances R_ij between C_i and C_j while the other loops carry no charge; (n, n).
 

@@ -33,17 +33,17 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.sparse import coo_array
+from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import breadth_first_order
 
-from igl_periods.arrays import Complexes, Floats
+from igl_periods.arrays import Complexes, Floats, Ints
 from igl_periods.complexes import DeltaComplex, double, half_edge_ends, of_a_surface
-from igl_periods.elements import high_order_forms
+from igl_periods.elements import HighOrderForms, dirichlet_matrix, high_order_forms
 from igl_periods.errors import ComplexError
-from igl_periods.symplectic import energy_matrix, standard_form
+from igl_periods.symplectic import standard_form
+from igl_periods.topology import cohomology_basis, pairing
 
-from .boundary_classes import BoundaryLoop, boundary_loops
-from .capacities import capacity_matrix
+from .boundary_classes import BoundaryLoop, boundary_loops, doubled_with_classes
 from .quadrilaterals import insulated_sides
 
 
@@ -58,11 +58,17 @@ class SlitMap:
     complex : DeltaComplex
     loops : list of BoundaryLoop
         C_1 … C_n.
+    polar : bool
+        Whether 0 is a centre of the image: boundary loops become circles, arcs or pieces of rays.
+    is_bounded : bool
+        Whether no point of the domain goes to infinity.
     """
 
     values: Complexes
     complex: DeltaComplex
     loops: list[BoundaryLoop]
+    polar: bool
+    is_bounded: bool = True
 
     def __repr__(self) -> str:
         return f"SlitMap of {self.complex.n_vertices} vertices, {len(self.loops)} boundary loops"
@@ -88,13 +94,12 @@ def circular_slit_map(K: DeltaComplex, inner: int = 1, *, degree: int = 6) -> Sl
         is no such inner loop.
     """
     loops = _loops(K, inner)
-    n = len(loops)
-    C = capacity_matrix(K, degree=degree)
-    flux = np.zeros(n - 1)
+    solved = _Solved.on(K, degree)
+    flux = np.zeros(len(loops) - 1)
     flux[inner - 1] = -2 * np.pi
-    levels = np.concatenate([[0.0], np.linalg.solve(C.grounded, flux)])
-    dp, dq = _differentials(K, levels, degree)
-    return SlitMap(np.exp(_integrated(K, dp + 1j * dq, loops[0])), K, loops)
+    levels = np.concatenate([[0.0], np.linalg.solve(solved.capacities[1:, 1:], flux)])
+    dp, dq = solved.differentials(levels)
+    return SlitMap(np.exp(_integrated(K, dp + 1j * dq, loops[0])), K, loops, polar=True)
 
 
 @of_a_surface
@@ -111,13 +116,13 @@ def radial_slit_map(K: DeltaComplex, inner: int = 1, *, degree: int = 6) -> Slit
     M = double(K, along=np.concatenate(others))
     inside = set(K.labels[loops[inner].vertices].tolist())
     chosen = [int(M.labels[loop.vertices[0]]) in inside for loop in boundary_loops(M)]
-    C = capacity_matrix(M, degree=degree)
+    solved = _Solved.on(M, degree)
     levels = np.array(chosen, dtype=np.float64)
     # Both copies of the inner loop together have twice the flux of one.
-    levels *= -4 * np.pi / float(levels @ C.matrix @ levels)
-    dp, dq = _differentials(M, levels, degree)
+    levels *= -4 * np.pi / float(levels @ solved.capacities @ levels)
+    dp, dq = solved.differentials(levels)
     first = slice(0, 3 * K.n_faces)
-    return SlitMap(np.exp(_integrated(K, (dp + 1j * dq)[first], loops[0])), K, loops)
+    return SlitMap(np.exp(_integrated(K, (dp + 1j * dq)[first], loops[0])), K, loops, polar=True)
 
 
 @of_a_surface
@@ -142,19 +147,19 @@ def parallel_slit_map(K: DeltaComplex, corners: ArrayLike, *, degree: int = 6) -
         As for :func:`extremal_length`, and if the surface has handles.
     """
     loops = boundary_loops(K)
-    _check_planar(K, loops)
+    check_planar(K, loops)
     mirrors, chosen = insulated_sides(K, corners)
     M = double(K, along=mirrors)
     start = {int(M.labels[v]) for v in boundary_loops(M)[0].vertices}
     levels = np.array([0.0, 1.0]) if int(chosen[0]) in start else np.array([1.0, 0.0])
-    dp, dq = _differentials(M, levels, degree)
+    dp, dq = _Solved.on(M, degree).differentials(levels)
     w = _integrated(K, (dp + 1j * dq)[: 3 * K.n_faces], loops[0])
-    return SlitMap(w - w[np.flatnonzero(K.labels == chosen[1])[0]], K, loops)
+    return SlitMap(w - w[np.flatnonzero(K.labels == chosen[1])[0]], K, loops, polar=False)
 
 
 def _loops(K: DeltaComplex, inner: int) -> list[BoundaryLoop]:
     loops = boundary_loops(K)
-    _check_planar(K, loops)
+    check_planar(K, loops)
     if not 1 <= inner < len(loops):
         raise ComplexError(
             f"inner = {inner}: of {len(loops)} boundary loops, counted from 0, one from 1 to "
@@ -163,7 +168,13 @@ def _loops(K: DeltaComplex, inner: int) -> list[BoundaryLoop]:
     return loops
 
 
-def _check_planar(K: DeltaComplex, loops: list[BoundaryLoop]) -> None:
+def check_planar(K: DeltaComplex, loops: list[BoundaryLoop]) -> None:
+    """Raise unless a surface with these boundary loops has genus 0.
+
+    Raises
+    ------
+    ComplexError
+    """
     handles = (2 - len(loops) - K.euler_characteristic) // 2
     if handles:
         raise ComplexError(
@@ -171,20 +182,57 @@ def _check_planar(K: DeltaComplex, loops: list[BoundaryLoop]) -> None:
         )
 
 
-def _differentials(M: DeltaComplex, levels: Floats, degree: int) -> tuple[Floats, Floats]:
-    """Integrals along half-edges of dp, p = Σ levels_i u_i, and of dq = *dp; (3 m,) each."""
-    C = capacity_matrix(M, degree=degree)
-    pm = C.period_matrix
-    dp = 2.0 * levels @ C.coefficients
-    dq = dp @ energy_matrix(pm.matrix) @ standard_form(pm.genus)
-    L = pm.complex
-    forms = high_order_forms(L, pm.cocycles, degree)
-    # Vertices keep their numbers where faces are divided, so edges of L join known values.
-    f = forms.traces[: L.n_vertices]
-    tail, head = half_edge_ends(L)
-    cochains = (L.sign.ravel()[:, None]) * pm.cocycles.T.tocsr()[L.edge.ravel()].toarray()
-    along = (cochains + f[head] - f[tail])[: 3 * M.n_faces]
-    return np.asarray(along @ dp), np.asarray(along @ dq)
+@dataclass(frozen=True, eq=False)
+class _Solved:
+    """Harmonic forms on the double of a surface, solved for once.
+
+    Attributes
+    ----------
+    surface, double : DeltaComplex
+    cocycles : (2g, n_edges) sparse int
+        A canonical basis on the double.
+    forms : HighOrderForms
+        ω_1 … ω_2g, in these classes.
+    classes : (n, 2g) int
+        Those of the boundary loops in this basis.
+    energies : (2g, 2g) float
+        The mean of D and J D⁻¹ Jᵀ, off by the square of what D is off by.
+    """
+
+    surface: DeltaComplex
+    double: DeltaComplex
+    cocycles: csr_array
+    forms: HighOrderForms
+    classes: Ints
+    energies: Floats
+
+    @classmethod
+    def on(cls, M: DeltaComplex, degree: int) -> _Solved:
+        """Solve on the double of a surface."""
+        L, of_loops = doubled_with_classes(M, boundary_loops(M))
+        cocycles = cohomology_basis(L)
+        J = standard_form(cocycles.shape[0] // 2)
+        forms = high_order_forms(L, cocycles, degree)
+        D = dirichlet_matrix(forms)
+        mean = 0.5 * (D + J @ np.linalg.inv(D) @ J.T)
+        return cls(M, L, cocycles, forms, pairing(L, of_loops, cocycles) @ -J, mean)
+
+    @property
+    def capacities(self) -> Floats:
+        """The capacity matrix of the loops; (n, n)."""
+        return np.asarray(2.0 * self.classes @ self.energies @ self.classes.T)
+
+    def differentials(self, levels: Floats) -> tuple[Floats, Floats]:
+        """Integrals along half-edges of dp, p = Σ levels_i u_i, and of dq = *dp; (3 m,) each."""
+        L = self.double
+        dp = 2.0 * levels @ self.classes
+        dq = dp @ self.energies @ standard_form(len(dp) // 2)
+        # Vertices keep their numbers where faces are divided, so edges of L join known values.
+        f = self.forms.traces[: L.n_vertices]
+        tail, head = half_edge_ends(L)
+        cochains = L.sign.ravel()[:, None] * self.cocycles.T.tocsr()[L.edge.ravel()].toarray()
+        along = (cochains + f[head] - f[tail])[: 3 * self.surface.n_faces]
+        return np.asarray(along @ dp), np.asarray(along @ dq)
 
 
 def _integrated(K: DeltaComplex, form: Complexes, loop: BoundaryLoop) -> Complexes:

@@ -31,7 +31,8 @@ Babuška, Suri, "The p and h-p versions of the finite element method" (1994).
 """
 
 from .reference_elements import ReferenceElement
-from .placement import Elements, separate_cones
+from .placement import Elements, choose_elements, separate_cones
+from .condensation import condense
 from .trace_system import count_unknowns, jumps, unknowns
 from .trial_forms import HighOrderForms
 from .least_energy import (
@@ -46,7 +47,9 @@ from .point_values import edge_integrals, gradients, potentials
 __all__ = [
     "ReferenceElement",
     "Elements",
+    "choose_elements",
     "separate_cones",
+    "condense",
     "count_unknowns",
     "jumps",
     "unknowns",

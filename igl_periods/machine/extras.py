@@ -14,6 +14,7 @@ from igl_periods.errors import MissingExtraError
 EXTRAS = {
     "pictures": ("matplotlib", "open3d", "PIL"),
     "batch": ("dask", "distributed", "pyarrow", "tqdm"),
+    "domains": ("svgelements",),
     "completion": ("argcomplete",),
     "distributed": ("mpi4py", "petsc4py"),
 }

@@ -5,9 +5,13 @@ what a picture shows is tested without drawing it; Open3D draws scenes, off scre
 and is not imported before.  That happens in a process of its own, which may abort or hang.
 
 =====================  ========================================================================
+``scene``              what a picture is made of
 ``scenes``             cycles, checkerboard, density, quality, cut
 ``derivative_scenes``  sensitivity, quadratic differentials
+``sheets``             what there is to see of a surface
+``cells``              cells of periodic surfaces: cycles through them, several copies
 ``tubes``              closed walks as smooth tubes
+``domain_pictures``    harmonic measures, slit maps
 ``rendering``          scenes to pixels, in a process with a time limit
 ``drawing``            what that process does, with Open3D
 ``drivers``            what Open3D needs of the system
@@ -16,18 +20,20 @@ and is not imported before.  That happens in a process of its own, which may abo
 =====================  ========================================================================
 """
 
+from .scene import Scene
 from .scenes import (
-    Scene,
     checkerboard_scene,
     cut_scene,
     cycles_scene,
     density_scene,
     plain_scene,
     quality_scene,
-    surface_in_space,
 )
+from .sheets import surface_in_space
+from .cells import periodic_copies
 from .derivative_scenes import quadratic_scene, sensitivity_scene
 from .rendering import check_display, render, save, show, with_legend
+from .domain_pictures import measure_picture, slit_map_picture
 from .polygon_drawing import render_polygons
 from .textured_meshes import write_glb, write_obj
 
@@ -42,12 +48,15 @@ __all__ = [
     "sensitivity_scene",
     "Scene",
     "surface_in_space",
+    "periodic_copies",
     "check_display",
     "render",
     "save",
     "show",
     "render_polygons",
     "with_legend",
+    "measure_picture",
+    "slit_map_picture",
     "write_glb",
     "write_obj",
 ]

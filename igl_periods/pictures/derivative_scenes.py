@@ -13,11 +13,14 @@ import numpy as np
 from igl_periods.arrays import Complexes, Floats, Ints
 from igl_periods.complexes import DeltaComplex
 from igl_periods.differentials import normalised_differentials
+from igl_periods.errors import ComplexError
 from igl_periods.harmonic import face_areas, linear_parts, spread_to_vertices
 from igl_periods.periods import PeriodMatrix
 from igl_periods.siegel import orthonormal_weights
 
-from .scenes import Scene, Sheet, Tube, coloured, scale_legend
+from .scene import Scene, Tube
+from .scenes import coloured, scale_legend
+from .sheets import Sheet
 from .tubes import diagonal
 
 _STROKE = (0.80, 0.12, 0.10)
@@ -33,17 +36,21 @@ def sensitivity_scene(pm: PeriodMatrix) -> Scene:
     Raises
     ------
     ComplexError
-        If the surface has no positions in space.
+        If the vertices have no positions in space.
     """
     K = pm.complex
     sheet = Sheet.of(K)
     by_vertex = pm.gradient(orthonormal_weights(pm.matrix)).vertices
-    assert by_vertex is not None
+    if by_vertex is None:
+        raise ComplexError(
+            "the vertices of a periodic surface have no positions that Π could be sensitive to: "
+            "there are gradients by the lengths (pm.gradient)."
+        )
     norms = np.sqrt(np.einsum("cvi,cvi->v", by_vertex, by_vertex))
     area = face_areas(K)
     # Distances in diagonals, areas in parts of the whole: the scale has no unit.
     density = norms * diagonal(sheet.V) / (spread_to_vertices(K, area) / area.sum())
-    colours, low, high = coloured(np.log10(np.maximum(density, 1e-300)))
+    colours, low, high = coloured(np.log10(np.maximum(density[sheet.source], 1e-300)))
     return Scene(
         sheet.V,
         sheet.F,
@@ -80,7 +87,7 @@ def quadratic_scene(pm: PeriodMatrix, first: int, second: int) -> Scene:
     product = p[0] * p[1]
     area = face_areas(K)
     at_vertices = spread_to_vertices(K, np.abs(product) * area) / spread_to_vertices(K, area)
-    colours, low, high = coloured(np.log10(np.maximum(at_vertices, 1e-300)))
+    colours, low, high = coloured(np.log10(np.maximum(at_vertices[sheet.source], 1e-300)))
     return Scene(
         sheet.V,
         sheet.F,

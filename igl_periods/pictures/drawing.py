@@ -17,7 +17,8 @@ from igl_periods.errors import RenderError
 from igl_periods.machine import missing_library
 
 from .drivers import check_egl, check_vulkan
-from .scenes import TUBE, Scene, checkerboard
+from .scene import Scene
+from .scenes import TUBE, checkerboard
 from .tubes import diagonal, tube
 
 _SUN, _SKY = 45_000.0, 20_000.0

@@ -24,7 +24,7 @@ from igl_periods.errors import RenderError
 from igl_periods.machine import require
 from igl_periods.run_log import stage
 
-from .scenes import Scene
+from .scene import Scene
 
 _LARGEST = 4096
 # How long a picture may take, in seconds: many times what drivers in software were seen to take,

@@ -13,21 +13,20 @@ A scene is made of arrays alone; :mod:`~igl_periods.pictures.rendering` draws it
 from __future__ import annotations
 
 import colorsys
-from dataclasses import dataclass
 
 import igl
 import numpy as np
 
 from igl_periods.arrays import Bytes, Floats, Ints
-from igl_periods.complexes import DeltaComplex, half_edge_ends, involution
+from igl_periods.complexes import DeltaComplex
 from igl_periods.differentials import Parametrization
-from igl_periods.display import arrays_repr
-from igl_periods.errors import ComplexError
 from igl_periods.harmonic import face_areas, spread_to_vertices
 from igl_periods.periods import MeshQuality, PeriodMatrix
 from igl_periods.topology import canonical_cycles
 
-from .tubes import smooth_closed_curves
+from .cells import smooth_cycles
+from .scene import Scene, Tube
+from .sheets import Sheet
 
 _PALE, _DARK = (0.93, 0.92, 0.90), (0.16, 0.30, 0.52)
 _CUT, _ZERO, _FOLD = (0.80, 0.12, 0.10), (0.95, 0.75, 0.05), (0.80, 0.12, 0.10)
@@ -37,52 +36,6 @@ _MOST_HANDLES = 8
 # Squares of the checkerboard per square root of the area, and the part of the faces at each end of
 # a scale that gets the extreme colours.
 _SQUARES, _CLIPPED = 60.0, 1.0
-
-
-@dataclass(frozen=True, eq=False)
-class Tube:
-    """A curve: its points (k, 3), the normals of the surface there, its colour; closed or not."""
-
-    __repr__ = arrays_repr
-
-    points: Floats
-    normals: Floats
-    colour: tuple[float, float, float]
-    closed: bool = True
-
-
-@dataclass(frozen=True, eq=False)
-class Scene:
-    """What a picture shows.
-
-    Attributes
-    ----------
-    V, F : (n, 3) float, (m, 3) int
-        The surface.
-    colours : (n, 3) float
-        RGB of the vertices, between 0 and 1.
-    corner_uv : (m, 3, 2) float or None
-        Where the corners lie on the checkerboard, of period 1 in both directions; the colours of
-        the vertices do not matter then.
-    tubes : tuple of Tube
-    balls : tuple of ((k, 3) float, float, colour)
-        Points, and their radius in diagonals of the surface.
-    legend : tuple of (str, colour)
-        What the colours mean.
-    caption : str
-        What is to be seen, in words.
-    """
-
-    __repr__ = arrays_repr
-
-    V: Floats
-    F: Ints
-    colours: Floats
-    corner_uv: Floats | None = None
-    tubes: tuple[Tube, ...] = ()
-    balls: tuple[tuple[Floats, float, tuple[float, float, float]], ...] = ()
-    legend: tuple[tuple[str, tuple[float, float, float]], ...] = ()
-    caption: str = ""
 
 
 def cycle_colour(k: int, n: int) -> tuple[float, float, float]:
@@ -101,11 +54,10 @@ def cycles_scene(pm: PeriodMatrix) -> Scene:
     K, g = pm.complex, pm.genus
     sheet = Sheet.of(K)
     V, F = sheet.V, sheet.F
-    tail, _ = half_edge_ends(K)
     walks = canonical_cycles(pm.complex, pm.cocycles)
     handles = _shortest_handles(K, walks)
     shown = [k for i in handles for k in (i, i + g)]
-    smooth = smooth_closed_curves(V, F, [V[tail[walks[k]]] for k in shown])
+    curves = smooth_cycles(sheet, [walks[k] for k in shown])
     colours = [cycle_colour(k, len(shown)) for k in range(len(shown))]
     names = [f"{'ab'[k // g]}{k % g + 1}" for k in shown]
     which = (
@@ -115,7 +67,11 @@ def cycles_scene(pm: PeriodMatrix) -> Scene:
         V,
         F,
         _uniform(V),
-        tubes=tuple(Tube(*curve, colour) for curve, colour in zip(smooth, colours, strict=True)),
+        tubes=tuple(
+            Tube(points, normals, colour, closed)
+            for pieces, colour in zip(curves, colours, strict=True)
+            for points, normals, closed in pieces
+        ),
         legend=tuple(zip(names, colours, strict=True)),
         caption=f"{len(shown)} {which}; a_i meets b_i once, and no other, counted with signs.",
     )
@@ -132,7 +88,8 @@ def checkerboard_scene(P: Parametrization) -> Scene:
     """The checkerboard of a form, with its zeros (yellow) and vertices of negative index (red)."""
     sheet = Sheet.of(P.complex)
     V, F = sheet.V, sheet.F
-    zeros, folds = np.flatnonzero(P.index > 0), np.flatnonzero(P.index < 0)
+    index = P.index[sheet.source]
+    zeros, folds = np.flatnonzero(index > 0), np.flatnonzero(index < 0)
     uv = P.corner_uv[: len(F)] * checkerboard_scale(P)
     return Scene(
         V,
@@ -166,7 +123,7 @@ def density_scene(P: Parametrization) -> Scene:
     sheet = Sheet.of(K)
     area = face_areas(K)
     at_vertices = spread_to_vertices(K, P.density * area) / spread_to_vertices(K, area)
-    values = 0.5 * np.log10(np.maximum(at_vertices, 1e-300))
+    values = 0.5 * np.log10(np.maximum(at_vertices[sheet.source], 1e-300))
     colours, low, high = coloured(values)
     return Scene(
         sheet.V,
@@ -185,7 +142,7 @@ def quality_scene(K: DeltaComplex, quality: MeshQuality) -> Scene:
     sheet = Sheet.of(K)
     density = quality.vertex_excess / spread_to_vertices(K, face_areas(K))
     relative = density / max(quality.bound, 1e-300) * float(face_areas(K).sum())
-    values = np.log10(np.maximum(relative, 1e-6))
+    values = np.log10(np.maximum(relative[sheet.source], 1e-6))
     colours, low, high = coloured(values)
     return Scene(
         sheet.V,
@@ -202,13 +159,12 @@ def quality_scene(K: DeltaComplex, quality: MeshQuality) -> Scene:
 def cut_scene(P: Parametrization) -> Scene:
     """The edges along which the surface is cut to a disk."""
     sheet = Sheet.of(P.complex)
-    tail, head = (sheet.vertex[ends] for ends in half_edge_ends(P.complex))
+    # In a cell both sides of a seam are seen, each in its place.
+    seams = np.concatenate([P.seams, P.complex.twin.ravel()[P.seams]])
+    ends = np.unique(np.sort(np.stack(sheet.ends(seams), axis=1), axis=1), axis=0)
     normals = igl.per_vertex_normals(sheet.V, sheet.F)
-    tubes = tuple(
-        Tube(sheet.V[ends], normals[ends], _CUT, closed=False)
-        for ends in np.stack([tail[P.seams], head[P.seams]], axis=1)
-    )
-    joints = sheet.V[np.union1d(tail[P.seams], head[P.seams])]
+    tubes = tuple(Tube(sheet.V[e], normals[e], _CUT, closed=False) for e in ends)
+    joints = sheet.V[np.unique(ends)]
     return Scene(
         sheet.V,
         sheet.F,
@@ -223,57 +179,6 @@ def plain_scene(K: DeltaComplex) -> Scene:
     """The surface, and nothing on it."""
     sheet = Sheet.of(K)
     return Scene(sheet.V, sheet.F, _uniform(sheet.V), caption="The surface.")
-
-
-def surface_in_space(K: DeltaComplex) -> tuple[Floats, Ints]:
-    """Positions (n, 3) and faces (m, 3) of a complex, plane ones with z = 0.
-
-    Raises
-    ------
-    ComplexError
-        If the complex has no positions, or they are in more than 3 dimensions.
-    """
-    if K.positions is None:
-        raise ComplexError(
-            "the surface has no positions in space, only lengths, so there is nothing to draw. "
-            "A surface made of V and F has positions."
-        )
-    n, dimension = K.positions.shape
-    if dimension > 3:
-        raise ComplexError(
-            f"the surface lies in R^{dimension}: project it to space first (stereographically, "
-            "for a surface in S^3)."
-        )
-    V = np.zeros((n, 3))
-    V[:, :dimension] = K.positions
-    return V, K.corner_vertex
-
-
-@dataclass(frozen=True, eq=False)
-class Sheet:
-    """What there is to see of a surface: all of it, but of a double the first sheet only.
-
-    The second sheet lies in the same place; ``vertex`` takes its vertices to those below them.
-    """
-
-    V: Floats
-    F: Ints
-    vertex: Ints
-
-    @classmethod
-    def of(cls, K: DeltaComplex) -> Sheet:
-        """The first sheet of a double, or the whole surface."""
-        V, F = surface_in_space(K)
-        vertex = np.arange(len(V))
-        try:
-            image = involution(K).vertex
-        except ComplexError:
-            return cls(V, F, vertex)
-        if not np.array_equal(V[image], V):
-            return cls(V, F, vertex)
-        seen = np.zeros(len(V), dtype=bool)
-        seen[F[: len(F) // 2]] = True
-        return cls(V, F[: len(F) // 2], np.where(seen, vertex, image))
 
 
 def _uniform(V: Floats) -> Floats:

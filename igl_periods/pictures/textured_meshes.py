@@ -14,6 +14,7 @@ import io
 import json
 import os
 import struct
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -21,11 +22,13 @@ import igl
 import numpy as np
 from numpy.typing import NDArray
 
-from igl_periods.arrays import Floats
+from igl_periods.arrays import Floats, Ints
 from igl_periods.differentials import Parametrization
 from igl_periods.machine import require
 
-from .scenes import checkerboard, checkerboard_scale, surface_in_space
+from .cells import copy_shifts
+from .scenes import checkerboard, checkerboard_scale
+from .sheets import surface_in_space
 
 # glTF: component types, buffer targets, filters and wrapping are OpenGL's constants.
 _FLOAT, _UNSIGNED_INT = 5126, 5125
@@ -35,7 +38,10 @@ _MAGIC, _JSON, _BINARY = 0x46546C67, 0x4E4F534A, 0x004E4942
 
 
 def write_obj(
-    path: str | os.PathLike[str], P: Parametrization, scale: float | None = None
+    path: str | os.PathLike[str],
+    P: Parametrization,
+    scale: float | None = None,
+    copies: Sequence[int] = (1,),
 ) -> list[Path]:
     """Write a textured mesh as OBJ, with a material and a texture beside it.
 
@@ -47,6 +53,8 @@ def write_obj(
     scale : float, optional
         Texture coordinates are ``scale`` z; by default such that the area of the surface is that
         of 3600 squares, on average.
+    copies : sequence of int
+        Of the cell of a periodic surface, as for :func:`periodic_copies`.
 
     Returns
     -------
@@ -62,10 +70,10 @@ def write_obj(
     """
     obj = Path(path)
     material, texture = obj.with_suffix(".mtl"), obj.with_suffix(".png")
-    V, F = surface_in_space(P.complex)
+    V, F, corner = _copied(P, copies)
     uv = _texture_coordinates(P, scale)
     none, no_faces = np.zeros((0, 0)), np.zeros((0, 0), dtype=np.int64)
-    igl.writeOBJ(str(obj), V, F, none, no_faces, uv, P.corner)
+    igl.writeOBJ(str(obj), V, F, none, no_faces, uv, corner)
     obj.write_text(f"mtllib {material.name}\nusemtl checkerboard\n{obj.read_text()}")
     material.write_text(f"newmtl checkerboard\nKd 1 1 1\nmap_Kd {texture.name}\n")
     texture.write_bytes(_checkerboard_png())
@@ -73,21 +81,27 @@ def write_obj(
 
 
 def write_glb(
-    path: str | os.PathLike[str], P: Parametrization, scale: float | None = None
+    path: str | os.PathLike[str],
+    P: Parametrization,
+    scale: float | None = None,
+    copies: Sequence[int] = (1,),
 ) -> list[Path]:
     """Write a textured mesh as binary glTF, everything in one file, in single precision.
 
     Vertices are those of the surface cut to a disk, since glTF has texture coordinates at
     vertices only.  Parameters and errors as in :func:`write_obj`.
     """
-    V, F = surface_in_space(P.complex)
-    uv = _texture_coordinates(P, scale)
+    V, F, corner = _copied(P, copies)
+    # A vertex for each pair of a place and a texture coordinate.
+    pairs = np.stack([corner.ravel(), F.ravel()], axis=1)
+    pairs, index = np.unique(pairs, axis=0, return_inverse=True)
+    uv = _texture_coordinates(P, scale)[pairs[:, 0]]
     # The origin of a glTF texture is its upper left corner.
     arrays = [
-        (V[P.vertex].astype("<f4"), _FLOAT, "VEC3"),
-        (igl.per_vertex_normals(V, F)[P.vertex].astype("<f4"), _FLOAT, "VEC3"),
+        (V[pairs[:, 1]].astype("<f4"), _FLOAT, "VEC3"),
+        (igl.per_vertex_normals(V, F)[pairs[:, 1]].astype("<f4"), _FLOAT, "VEC3"),
         (np.stack([uv[:, 0], 1.0 - uv[:, 1]], axis=1).astype("<f4"), _FLOAT, "VEC2"),
-        (P.corner.astype("<u4").ravel(), _UNSIGNED_INT, "SCALAR"),
+        (index.astype("<u4").ravel(), _UNSIGNED_INT, "SCALAR"),
     ]
     image = _checkerboard_png()
     document = _gltf(arrays, len(image))
@@ -103,6 +117,18 @@ def write_glb(
         + binary
     )
     return [Path(path)]
+
+
+def _copied(P: Parametrization, copies: Sequence[int]) -> tuple[Floats, Ints, Ints]:
+    """Positions, faces, and the texture coordinates of their corners, of copies of a surface."""
+    V, F = surface_in_space(P.complex)
+    shifts = copy_shifts(P.complex.cell, copies)
+    faces = np.concatenate([F + k * len(V) for k in range(len(shifts))])
+    return (
+        np.concatenate([V + t for t in shifts]),
+        np.ascontiguousarray(faces),
+        np.tile(P.corner, (len(shifts), 1)),
+    )
 
 
 def _texture_coordinates(P: Parametrization, scale: float | None) -> Floats:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
 import igl
 import numpy as np
 
@@ -18,7 +21,43 @@ def diagonal(V: Floats) -> float:
     return float(np.linalg.norm(V.max(axis=0) - V.min(axis=0)))
 
 
-def smooth_closed_curves(V: Floats, F: Ints, curves: list[Floats]) -> list[tuple[Floats, Floats]]:
+class Periodicity(NamedTuple):
+    """What makes curves on a periodic surface closed.
+
+    Attributes
+    ----------
+    holonomies : sequence of (3,) float
+        The translations from the beginning of each curve to its end.
+    home : function
+        The translations that take points out of the parallelepiped of translations to where they
+        are.
+    extent : (n, 3) float
+        The vertices of one cell.
+    """
+
+    holonomies: Sequence[Floats]
+    home: Callable[[Floats], Floats]
+    extent: Floats
+
+
+class SmoothCurve(NamedTuple):
+    """A curve on a surface: points at about equal distances, and normals there.
+
+    ``face`` are the faces in which the points lie after they were translated by ``-away``.
+    """
+
+    points: Floats
+    normals: Floats
+    face: Ints
+    away: Floats
+
+
+def smooth_closed_curves(
+    V: Floats,
+    F: Ints,
+    curves: Sequence[Floats],
+    periodicity: Periodicity | None = None,
+) -> list[SmoothCurve]:
     """Smooth closed curves on a surface, without leaving it.
 
     Points move towards the middle of their neighbours and back to the nearest point of the
@@ -27,34 +66,38 @@ def smooth_closed_curves(V: Floats, F: Ints, curves: list[Floats]) -> list[tuple
     Parameters
     ----------
     V, F : (n, 3) float, (m, 3) int
-        The surface.
-    curves : list of (k, 3) float
-        The corners of closed polygons on it.
-
-    Returns
-    -------
-    list of ((k', 3) float, (k', 3) float)
-        Points at equal distances, and normals of the surface there.
+        The surface; of a periodic one, what is near the parallelepiped of its translations.
+    curves : sequence of (k, 3) float
+        The corners of polygons on it, closed ones or closed up to a translation.
+    periodicity : Periodicity, optional
     """
     if not curves:
         return []
-    step = _STEP * diagonal(V)
-    points = [_resampled(curve, step) for curve in curves]
+    holonomies, home, extent = periodicity or (np.zeros((len(curves), 3)), np.zeros_like, V)
+    steps, size = np.asarray(holonomies), _STEP * diagonal(extent)
+    points = [_resampled(curve, step, size) for curve, step in zip(curves, steps)]
     sizes = np.array([len(curve) for curve in points])
     start = np.concatenate([[0], np.cumsum(sizes)[:-1]])
     everything = np.concatenate(points)
     index = np.arange(len(everything))
-    first = np.repeat(start, sizes)
-    within, size = index - first, np.repeat(sizes, sizes)
-    before, after = first + (within - 1) % size, first + (within + 1) % size
+    first, n = np.repeat(start, sizes), np.repeat(sizes, sizes)
+    within = index - first
+    before, after = first + (within - 1) % n, first + (within + 1) % n
+    step = np.repeat(steps, sizes, axis=0)
+    at_start, at_end = step * (within == 0)[:, None], step * (within == n - 1)[:, None]
     tree = igl.AABB()
     tree.init(V, F)
     for _ in range(_SMOOTHINGS):
-        middle = 0.5 * everything + 0.25 * (everything[before] + everything[after])
-        _, face, everything = tree.squared_distance(V, F, middle)
-    normals = _normals(V, F, everything, face)
+        neighbours = everything[before] - at_start + everything[after] + at_end
+        middle = 0.5 * everything + 0.25 * neighbours
+        away = home(middle)
+        _, face, nearest = tree.squared_distance(V, F, middle - away)
+        everything = nearest + away
+    normals = _normals(V, F, nearest, face)
     ends = np.cumsum(sizes)[:-1]
-    return list(zip(np.split(everything, ends), np.split(normals, ends), strict=True))
+    arrays = (everything, normals, face.ravel(), away)
+    parts = (np.split(array, ends) for array in arrays)
+    return [SmoothCurve(*part) for part in zip(*parts, strict=True)]
 
 
 def tube(points: Floats, normals: Floats, radius: float, closed: bool) -> tuple[Floats, Ints]:
@@ -89,9 +132,9 @@ def tube(points: Floats, normals: Floats, radius: float, closed: bool) -> tuple[
     return V, np.stack([a, c, b, a, d, c], axis=-1).reshape(-1, 3)
 
 
-def _resampled(curve: Floats, step: float) -> Floats:
-    """Points at about equal distances on a closed polygon."""
-    closed = np.concatenate([curve, curve[:1]])
+def _resampled(curve: Floats, holonomy: Floats, step: float) -> Floats:
+    """Points at about equal distances on a polygon that is closed up to a translation."""
+    closed = np.concatenate([curve, curve[:1] + holonomy])
     along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(closed, axis=0), axis=1))])
     count = max(8, int(np.ceil(along[-1] / step)))
     where = along[-1] * np.arange(count) / count

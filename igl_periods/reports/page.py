@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from igl_periods.arrays import Floats
+from igl_periods.complexes import Cell
 from igl_periods.differentials import Parametrization, most_even_form, parametrize
 from igl_periods.display import LARGEST_SHOWN, matrix_html
 from igl_periods.errors import ComplexError, RenderError
@@ -33,6 +34,7 @@ from igl_periods.pictures import (
     cut_scene,
     cycles_scene,
     density_scene,
+    periodic_copies,
     plain_scene,
     quality_scene,
     render,
@@ -58,6 +60,7 @@ def write_report(
     mesh: MeshReport | None = None,
     remarks: Sequence[str] = (),
     size: tuple[int, int] = (900, 640),
+    copies: Sequence[int] = (1,),
 ) -> None:
     """Write a self-contained HTML page about a surface and its period matrix.
 
@@ -79,6 +82,8 @@ def write_report(
         :func:`~igl_periods.reports.method_in_words`.
     size : (int, int)
         Width and height of the pictures in pixels.
+    copies : sequence of int
+        How many copies of the cell of a periodic surface they show, along each translation.
 
     Raises
     ------
@@ -96,7 +101,7 @@ def write_report(
         title=escape(name),
         facts=_facts(pm),
         remarks=_paragraphs(list(remarks)),
-        pictures=_pictures(pm, quality, P, size),
+        pictures=_pictures(pm.complex.cell, copies, _scenes(pm, quality, P), size),
         matrix=_matrix(pm),
         mesh=f"<pre>{escape(str(mesh))}</pre>" if mesh else "<p>No mesh file was read.</p>",
         advice=_paragraphs(advice(quality) + (parametrization_in_words(P) if P else [])),
@@ -134,12 +139,12 @@ def _scenes(pm: PeriodMatrix, quality: MeshQuality, P: Parametrization | None) -
 
 
 def _pictures(
-    pm: PeriodMatrix, quality: MeshQuality, P: Parametrization | None, size: tuple[int, int]
+    cell: Cell | None, copies: Sequence[int], scenes: Iterator[Scene], size: tuple[int, int]
 ) -> str:
     try:
         figures = [
             _figure(with_legend(render(scene, size), scene), scene.caption)
-            for scene in _scenes(pm, quality, P)
+            for scene in (periodic_copies(scene, cell, copies) for scene in scenes)
         ]
     except (RenderError, ComplexError) as error:
         logger.warning("no pictures: %s", error)

@@ -6,17 +6,13 @@ joined so, run through either way.  A polygon of Shapely is one, too: whatever h
 and ``interiors`` with ``coords``.
 
 The corners of the polygons are the first vertices of the mesh, those of the outer boundary before
-those of the holes in their order.  Where triangles would be thin, points are added in the middle of
-sides and in the interior: the surface is flat there, and does not change.  This is the work of
-Shewchuk's Triangle, as libigl has it.
+those of the holes in their order.  Where triangles would be thin, points are added on sides and in
+the interior (:mod:`~igl_periods.surfaces.plane_triangulation`): the surface is flat there, and does
+not change.
 
 What is no domain is refused, with the place: sides that cross or touch, corners at which the
 boundary runs back along itself (a slit has two sides, and no mesh in the plane keeps them apart),
 holes that are not inside.
-
-References
-----------
-Shewchuk, "Delaunay refinement algorithms for triangular mesh generation" (2002).
 """
 
 from __future__ import annotations
@@ -29,9 +25,11 @@ import numpy as np
 from igl_periods.arrays import Bools, Floats, Ints
 from igl_periods.errors import MeshError
 
+from .plane_triangulation import Quality, triangulated, turn
+
 # In parts of the size of the domain: what is no distance.
 _TOUCHING = 1e-9
-_LARGEST_ANGLE = 33.0
+_LARGEST_ANGLE = 30.0
 _PAIRS_AT_ONCE = 2**21
 
 
@@ -48,7 +46,7 @@ def planar_domain(
     holes : iterable of (n,) complex or (n, 2) array-like
         Corners of the boundaries of the holes.
     angle : float
-        The least angle of triangles in degrees, at most 33, except at sharper corners of the
+        The least angle of triangles in degrees, at most 30, except at sharper corners of the
         domain; 0 adds no points.
     area : float, optional
         The largest area of a triangle.
@@ -83,7 +81,8 @@ def planar_domain(
     if area is not None and not 0.0 < area < np.inf:
         raise ValueError(f"area = {area}: the largest area of a triangle is positive.")
     polygons = _polygons(outer, holes)
-    corners, sides = np.vstack(polygons), _sides([len(polygon) for polygon in polygons])
+    corners, rings = np.vstack(polygons), _rings(polygons)
+    sides = np.vstack([np.stack([ring, np.roll(ring, -1)], axis=1) for ring in rings])
     low = corners.min(axis=0)
     size = float((corners - low).max())
     if size == 0.0:
@@ -91,11 +90,9 @@ def planar_domain(
     # Around the origin and of size 1, where nothing over- or underflows.
     scaled = (corners - low) / size
     _check_boundary(scaled, sides, corners)
-    inside = _check_nesting(polygons, scaled)
-    flags = f"pQ{f'q{angle:g}' if angle else ''}"
-    if area is not None:
-        flags += f"a{area / size**2:.17f}"
-    V, F = _triangulated(scaled, sides, inside, flags)
+    _check_nesting(polygons, scaled)
+    largest = np.inf if area is None else area / size**2
+    V, F = triangulated(scaled, _to_the_left(scaled, rings), Quality(angle, largest))
     V = low + size * V
     V[: len(corners)] = corners
     return V, F
@@ -136,12 +133,21 @@ def _corners(ring: Any, name: str) -> Floats:
     return np.ascontiguousarray(xy)
 
 
-def _sides(sizes: list[int]) -> Ints:
-    starts = np.cumsum([0, *sizes[:-1]])
-    return np.vstack(
-        [first + np.stack([np.arange(n), (np.arange(n) + 1) % n], axis=1)
-         for first, n in zip(starts.tolist(), sizes)]
-    )  # fmt: skip
+def _rings(polygons: list[Floats]) -> list[Ints]:
+    """The numbers of the corners of each polygon."""
+    ends = np.cumsum([len(polygon) for polygon in polygons])
+    return np.split(np.arange(ends[-1]), ends[:-1])
+
+
+def _to_the_left(P: Floats, rings: list[Ints]) -> list[Ints]:
+    """The outer polygon counterclockwise, the others clockwise."""
+    z = P @ np.array([1.0, 1.0j])
+    areas = [np.imag(np.conj(z[ring]) * np.roll(z[ring], -1)).sum() for ring in rings]
+    wanted = [k == 0 for k in range(len(rings))]
+    return [
+        ring if (area > 0) == outer else ring[::-1]
+        for ring, area, outer in zip(rings, areas, wanted)
+    ]
 
 
 def _check_boundary(P: Floats, sides: Ints, corners: Floats) -> None:
@@ -210,14 +216,9 @@ def _pairs(P: Floats, sides: Ints) -> Iterable[tuple[Ints, Ints]]:
 
 def _cross_properly(a: Floats, b: Floats, p: Floats, q: Floats) -> Bools:
     """Whether two sides have their ends on both sides of each other."""
-    one = _turn(a, b, p) * _turn(a, b, q)
-    other = _turn(p, q, a) * _turn(p, q, b)
+    one = turn(a, b, p) * turn(a, b, q)
+    other = turn(p, q, a) * turn(p, q, b)
     return np.asarray((one < 0) & (other < 0))
-
-
-def _turn(a: Floats, b: Floats, c: Floats) -> Floats:
-    u, v = b - a, c - a
-    return np.asarray(u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0])
 
 
 def _distance(c: Floats, a: Floats, b: Floats) -> Floats:
@@ -227,8 +228,8 @@ def _distance(c: Floats, a: Floats, b: Floats) -> Floats:
     return np.asarray(np.linalg.norm(c - a - np.clip(t, 0.0, 1.0)[..., None] * u, axis=-1))
 
 
-def _check_nesting(polygons: list[Floats], scaled: Floats) -> Floats:
-    """A point inside each hole; raise where one is not inside of the domain."""
+def _check_nesting(polygons: list[Floats], scaled: Floats) -> None:
+    """Raise where a hole is not inside of the domain."""
     ends = np.cumsum([len(polygon) for polygon in polygons])
     rings = np.split(scaled, ends[:-1])
     for k, ring in enumerate(rings[1:]):
@@ -244,8 +245,6 @@ def _check_nesting(polygons: list[Floats], scaled: Floats) -> Floats:
                     f"hole {k} is inside of hole {j}, at {_place(polygons[k + 1][0])}: what lies "
                     "within a hole is no part of the domain."
                 )
-    points = [_inner_point(ring) for ring in rings[1:]]
-    return np.array(points, dtype=np.float64).reshape(-1, 2)
 
 
 def _contains(ring: Floats, point: Floats) -> bool:
@@ -255,20 +254,6 @@ def _contains(ring: Floats, point: Floats) -> bool:
     a, b = a[spans], b[spans]
     crossing = a[:, 0] + (point[1] - a[:, 1]) / (b[:, 1] - a[:, 1]) * (b[:, 0] - a[:, 0])
     return bool(np.count_nonzero(crossing > point[0]) % 2)
-
-
-def _inner_point(ring: Floats) -> Floats:
-    """A point inside of a polygon: in the middle of the largest of its triangles."""
-    V, F = _triangulated(ring, _sides([len(ring)]), np.zeros((0, 2)), "pQ")
-    a, b, c = V[F[:, 0]], V[F[:, 1]], V[F[:, 2]]
-    return np.asarray(((a + b + c) / 3)[int(np.argmax(_turn(a, b, c)))])
-
-
-def _triangulated(V: Floats, sides: Ints, holes: Floats, flags: str) -> tuple[Floats, Ints]:
-    from igl.triangle import triangulate
-
-    V, F, *_ = triangulate(V, sides, holes, flags=flags)
-    return np.ascontiguousarray(V), np.asarray(F, dtype=np.int64)
 
 
 def _place(point: Floats) -> str:

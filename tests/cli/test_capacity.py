@@ -47,7 +47,7 @@ def test_mesh_and_polygon_have_the_same_capacities(tmp_path, capsys):
     [
         ("{}", "no GeoJSON file with a polygon"),
         ("[1", "no GeoJSON file with a polygon"),
-        ('{"type": "Point", "coordinates": [0, 0]}', "is a Point: a Polygon is needed"),
+        ('{"type": "Point", "coordinates": [0, 0]}', "holds Point: one Polygon is needed"),
         ('{"type": "Polygon", "coordinates": [[[0, 0], [1, 0]]]}', "2 different corners"),
     ],
 )
@@ -90,3 +90,37 @@ def test_cells_are_glued_by_their_lattice(tmp_path, capsys):
     with pytest.raises(SystemExit):
         main(["compute", path, "--lattice=a,b"])
     assert "translations as in" in capsys.readouterr().err
+
+
+def test_a_marching_cubes_cell_of_the_p_surface_from_a_file(tmp_path, capsys):
+    n = 12
+    x = np.linspace(0, 2 * np.pi, n + 1)
+    z, y, x = np.meshgrid(x, x, x, indexing="ij")
+    P = np.stack([x, y, z], axis=-1).reshape(-1, 3)
+    values = np.cos(P - [0.1, 0.17, 0.23]).sum(axis=1)
+    V, F, _ = igl.marching_cubes(values, P, n + 1, n + 1, n + 1, 0.0)
+    path = tmp_path / "p.obj"
+    # With six digits, as programs write them.
+    lines = [f"v {a:.6g} {b:.6g} {c:.6g}" for a, b, c in V]
+    path.write_text("\n".join(lines + [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in F]))
+    period = 2 * np.pi
+    lattice = f"--lattice={period},0,0;0,{period},0;0,0,{period}"
+    assert main(["identify", str(path), "--degree", "2", lattice]) == 0
+    assert "Schwarz P and D surfaces and gyroid" in capsys.readouterr().out
+    picture = tmp_path / "p.png"
+    arguments = ["-o", str(picture), "--size", "80x60", "--copies", "2,1,1"]
+    assert main(["render", str(path), lattice, *arguments]) == 0
+    assert picture.exists()
+    assert (
+        main(["texture", str(path), lattice, "-o", str(tmp_path / "t.obj"), "--copies", "2"]) == 0
+    )
+    assert (tmp_path / "t.obj").read_text().count("\nf ") == 8 * len(F)
+    with pytest.raises(SystemExit):
+        main(["render", str(path), "-o", str(picture), "--copies", "2"])
+    assert "--copies has no effect without --lattice" in capsys.readouterr().err
+    with pytest.raises(SystemExit):
+        main(["render", str(path), lattice, "-o", str(picture), "--copies", "2,2"])
+    assert "one number, or 3" in capsys.readouterr().err
+    with pytest.raises(SystemExit):
+        main(["render", str(path), lattice, "-o", str(picture), "--copies", "0"])
+    assert "numbers of copies are" in capsys.readouterr().err

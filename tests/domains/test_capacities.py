@@ -163,7 +163,7 @@ def test_planar_domains_are_the_inverse_of_the_period_matrix():
     # ones that do not pair with each other.
     N = B @ J.T
     A = np.array([row_meeting(N, k) for k in range(g)])
-    A = A - np.tril(A @ J @ A.T, -1) @ B
+    A = A + np.tril(A @ J @ A.T, -1) @ B
     assert np.array_equal(A @ J @ B.T, np.eye(g, dtype=int))
     assert not (A @ J @ A.T).any()
     U = np.vstack([A, B])

@@ -1,7 +1,11 @@
 """Moduli of quadrilaterals: rectangles, published ones, conjugates and compositions."""
 
+from itertools import combinations
+
 import numpy as np
 import pytest
+from scipy.integrate import quad
+from scipy.optimize import brentq
 from scipy.special import ellipk
 from support.random_domains import AITCH, ELL, random_domain, square, star
 
@@ -32,6 +36,44 @@ def test_published_modulus_of_the_ell():
     assert extremal_length(half, [1, 2, 3, 0], tolerance=1e-12).value == pytest.approx(
         1.279261571171, rel=1e-12
     )
+
+
+def prevertices_of_the_ell():
+    """The corners of the ell on the real line, with the disc as the half plane.
+
+    dz = √w dw / √((w² − a²)(w² − 1)) takes −1, −a, 0, a, 1 to the corners but the outer one, which
+    is the image of ∞; all of these sides have the length 1.
+    """
+
+    def difference(a):
+        # Where a root vanishes at an end, w is a sine or a square of the distance from there.
+        inner = quad(lambda t: np.sqrt(a * np.sin(t) / (1 - (a * np.sin(t)) ** 2)), 0, np.pi / 2)
+        c, r = (1 + a * a) / 2, (1 - a * a) / 2
+        outer = quad(lambda t: 0.5 * (c - r * np.cos(t)) ** -0.25, 0, np.pi)
+        return inner[0] - outer[0]
+
+    a = brentq(difference, 0.01, 0.99, xtol=1e-15)
+    # ∞ goes to 0, behind all others.
+    return np.append(0.0, -1 / (np.array([-1, -a, 0, a, 1]) + 2))
+
+
+@pytest.mark.parametrize("corners", list(combinations(range(6), 4))[::2])
+def test_ells_by_the_formula_of_schwarz_and_christoffel(corners):
+    x = prevertices_of_the_ell()
+    order = sorted(corners, key=lambda k: x[k])
+    p, q, r, s = x[order]
+    share = (q - p) * (s - r) / ((r - p) * (s - q))
+    exact = ellipk(1 - share) / ellipk(share)
+    h = extremal_length(planar_domain(ELL), order, tolerance=1e-9)
+    assert h.bounds[0] - 1e-12 <= exact <= h.bounds[1] + 1e-12
+    assert h.value == pytest.approx(exact, rel=2e-9)
+
+
+def test_ells_whose_moduli_are_roots_of_three():
+    V, F = planar_domain(ELL)
+    for corners in ([0, 1, 4, 5], [1, 2, 3, 4], [2, 3, 4, 5]):
+        low, high = extremal_length(V, F, corners, tolerance=1e-9).bounds
+        assert low <= np.sqrt(3) <= high
 
 
 def test_symmetric_quadrilaterals_have_modulus_one():

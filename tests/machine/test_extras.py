@@ -42,6 +42,7 @@ def test_extras_are_those_of_the_installation():
         "pictures",
         "batch",
         "completion",
+        "domains",
     }
     required = set(re.findall(r'^  "([\w-]+)', section("project"), re.M))
     assert required.isdisjoint(DISTRIBUTIONS.get(package, package) for package in BROUGHT)
@@ -102,10 +103,11 @@ def doors(tmp_path):
             "pictures",
             lambda: write_obj(tmp_path / "t.obj", ip.parametrize(pm, [1.0])),
         ),
+        "drawing": (("svgelements",), "domains", lambda: ip.read_domain(tmp_path / "d.svg")),
     }
 
 
-@pytest.mark.parametrize("door", ["render", "legend", "save", "report", "texture"])
+@pytest.mark.parametrize("door", ["render", "legend", "save", "report", "texture", "drawing"])
 def test_every_door_names_its_extra(monkeypatch, tmp_path, door):
     packages, extra, call = doors(tmp_path)[door]
     without(monkeypatch, *packages)

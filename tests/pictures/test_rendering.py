@@ -10,13 +10,13 @@ import igl_periods as ip
 from igl_periods.errors import RenderError
 from igl_periods.pictures import rendering
 from igl_periods.pictures.rendering import render, save, with_legend
+from igl_periods.pictures.scene import Scene
 from igl_periods.pictures.scenes import (
-    Scene,
     cycle_colour,
     cycles_scene,
     plain_scene,
-    surface_in_space,
 )
+from igl_periods.pictures.sheets import surface_in_space
 from igl_periods.surfaces import flat_torus
 
 

@@ -13,8 +13,8 @@ from igl_periods.differentials.even_form import most_even_form
 from igl_periods.differentials.parametrization import parametrize
 from igl_periods.periods.quality import mesh_quality
 from igl_periods.pictures.rendering import render
+from igl_periods.pictures.scene import Scene
 from igl_periods.pictures.scenes import (
-    Scene,
     checkerboard,
     checkerboard_scene,
     cut_scene,
@@ -22,8 +22,8 @@ from igl_periods.pictures.scenes import (
     density_scene,
     plain_scene,
     quality_scene,
-    surface_in_space,
 )
+from igl_periods.pictures.sheets import surface_in_space
 
 LAWSON = Path(__file__).parents[2] / "data" / "lawson_2_1.off"
 

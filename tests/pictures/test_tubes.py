@@ -36,7 +36,7 @@ def test_smoothing_shortens_curves():
     v = 0.3 * np.sin(9 * u)
     ring = 2.0 + 0.7 * np.cos(v)
     wavy = np.stack([ring * np.cos(u), ring * np.sin(u), 0.7 * np.sin(v)], axis=1)
-    ((points, _),) = smooth_closed_curves(V, F, [wavy])
+    ((points, _, _, _),) = smooth_closed_curves(V, F, [wavy])
     lengths = [
         np.linalg.norm(np.diff(c, axis=0, append=c[:1]), axis=1).sum() for c in (wavy, points)
     ]

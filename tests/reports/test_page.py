@@ -17,7 +17,7 @@ import igl_periods as ip
 from igl_periods.errors import RenderError
 from igl_periods.reports import page as report
 from igl_periods.reports.page import write_report
-from igl_periods.surfaces import flat_torus
+from igl_periods.surfaces import flat_torus, triply_periodic_minimal_surface
 
 LAWSON = Path(__file__).parents[2] / "data" / "lawson_2_1.off"
 
@@ -180,3 +180,13 @@ def test_remarks_are_on_the_page_and_bad_places_are_refused(tmp_path, monkeypatc
     monkeypatch.setattr(report, "mesh_quality", None)
     with pytest.raises(FileNotFoundError, match="there is no folder"):
         write_report(tmp_path / "no" / "r.html", pm, name="torus")
+
+
+def test_cells_of_periodic_surfaces_are_shown_in_copies(tmp_path):
+    V, F, lattice = triply_periodic_minimal_surface("D", 1)
+    pm = ip.period_matrix(ip.DeltaComplex.from_mesh(V, F, lattice=lattice)).reduced()
+    path = tmp_path / "page.html"
+    write_report(path, pm, name="D", size=(64, 48), copies=(2, 1, 1))
+    text = path.read_text(encoding="utf-8")
+    assert "There are no pictures" not in text
+    assert text.count("<img") > 5

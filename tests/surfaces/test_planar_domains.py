@@ -103,7 +103,7 @@ def test_what_is_no_domain_is_refused_with_its_place(outer, holes, message):
 
 
 def test_options_out_of_range():
-    with pytest.raises(ValueError, match=r"angle = 40: .* from 0 to 33 degrees"):
+    with pytest.raises(ValueError, match=r"angle = 40: .* from 0 to 30 degrees"):
         planar_domain(OUTER, angle=40)
     with pytest.raises(ValueError, match="area = 0: the largest area"):
         planar_domain(OUTER, area=0)
