@@ -64,6 +64,14 @@ def to_sage(x: Any) -> str:
     ------
     TypeError
         If it is none of these.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> print(ip.to_sage(ip.curve_of_form([-1, 0, 0, 0, 0, 0, 1])), end="")
+    R.<x> = PolynomialRing(QQ)
+    f = x^6 - 1
+    C = HyperellipticCurve(f)
     """
     if isinstance(x, AlgebraicCurve):
         return _sage_curve(x)
@@ -84,6 +92,14 @@ def to_magma(x: Any) -> str:
     ------
     TypeError
         If it is none of these.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> print(ip.to_magma(ip.curve_of_form([-1, 0, 0, 0, 0, 0, 1])), end="")
+    R<x> := PolynomialRing(Rationals());
+    f := x^6 - 1;
+    X := HyperellipticCurve(f);
     """
     if isinstance(x, AlgebraicCurve):
         return _magma_curve(x)
@@ -107,6 +123,12 @@ def to_pari(x: Any) -> str:
     ------
     TypeError
         If it is none of these.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> print(ip.to_pari(ip.curve_of_form([-1, 0, 0, 0, 0, 0, 1])), end="")
+    f = x^6 - 1;
     """
     if isinstance(x, AlgebraicCurve):
         return _pari_curve(x)

@@ -58,6 +58,19 @@ def read_domain(path: str | PathLike[str]) -> Rings:
         If the file holds no polygon with holes.
     MissingExtraError
         If svgelements, which reads SVG, is not installed.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import igl_periods as ip
+    >>> text = '{"type": "Polygon", "coordinates": [[[0, 0], [2, 0], [2, 1], [0, 0]]]}'
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder, "plate.geojson")
+    ...     written = path.write_text(text)
+    ...     outer, holes = ip.read_domain(path)
+    >>> outer.tolist(), holes
+    ([0j, (2+0j), (2+1j), 0j], [])
     """
     if not is_domain_file(path):
         known = " and ".join(DOMAIN_EXTENSIONS)

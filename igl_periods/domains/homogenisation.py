@@ -69,6 +69,19 @@ class EffectiveConductivity:
         Lower ≤ σ ≤ upper in the Loewner order.
     period_matrix : PeriodMatrix
         Of the surface, or of its double.
+
+    Examples
+    --------
+    A plane sheet conducts alike in all directions.
+
+    >>> import igl_periods as ip
+    >>> V = [[0, 0, 0], [1, 0, 0], [1, 2, 0], [0, 2, 0]]
+    >>> lattice = [[1, 0, 0], [0, 2, 0]]
+    >>> K = ip.DeltaComplex.from_mesh(V, [[0, 1, 2], [0, 2, 3]], lattice=lattice)
+    >>> ip.effective_conductivity(K).tensor.round(9) + 0.0
+    array([[1., 0., 0.],
+           [0., 1., 0.],
+           [0., 0., 0.]])
     """
 
     tensor: Floats
@@ -119,6 +132,18 @@ def effective_conductivity(
     -----
     ToleranceWarning
         If the tolerance is not met.
+
+    Examples
+    --------
+    A plane sheet conducts alike in all directions.
+
+    >>> import igl_periods as ip
+    >>> V = [[0, 0, 0], [1, 0, 0], [1, 2, 0], [0, 2, 0]]
+    >>> lattice = [[1, 0, 0], [0, 2, 0]]
+    >>> K = ip.DeltaComplex.from_mesh(V, [[0, 1, 2], [0, 2, 3]], lattice=lattice)
+    >>> ip.effective_conductivity(K).tensor[:2, :2].round(9) + 0.0
+    array([[1., 0.],
+           [0., 1.]])
     """
     if K.cell is None:
         raise ComplexError(

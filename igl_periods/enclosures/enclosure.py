@@ -72,6 +72,13 @@ class PeriodEnclosure:
         The surface as it was given, with ``exact_lengths`` if these are not the stored ones.
     bits : int
         The precision that ``dirichlet`` was computed with.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> proved = ip.enclose(ip.surfaces.flat_torus(1j), digits=20)
+    >>> proved.digits >= 20
+    True
     """
 
     dirichlet: flint.arb_mat

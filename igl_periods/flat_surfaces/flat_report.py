@@ -83,6 +83,13 @@ class FlatSurfaceReport(ReadOnlyArrays):
     known_by : {"exact", "balls", "floats"}
         How the holonomy was decided: exactly, from exact lengths to 100 digits, or from lengths
         that are doubles to 1e-9.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> report = ip.flat_surface_report(ip.surfaces.origami("(1,2,3)", "(1,4)"))
+    >>> report.stratum, report.genus
+    ('H(2)', 2)
     """
 
     genus: int

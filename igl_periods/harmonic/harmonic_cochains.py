@@ -49,6 +49,13 @@ def harmonic_forms(K: DeltaComplex, cocycles: csr_array | None = None) -> Floats
     References
     ----------
     Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 3.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> K = ip.surfaces.square_tiled_surface("omega_1", n=2)
+    >>> ip.harmonic_forms(K).shape == (4, K.n_edges)
+    True
     """
     return _harmonic(K, cotan_weights(K), checked_basis(K, cocycles))
 
@@ -78,6 +85,13 @@ def harmonic_form_blocks(
         If ``rows`` is less than 1.
     ComplexError
         As :func:`harmonic_forms`.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> K = ip.surfaces.square_tiled_surface("omega_1", n=2)
+    >>> [block.shape[0] for block in ip.harmonic_form_blocks(K, rows=3)]
+    [3, 1]
     """
     rows = checked_integer("rows", rows)
     if rows < 1:

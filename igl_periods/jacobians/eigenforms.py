@@ -47,6 +47,13 @@ class EigenformRing:
     form : tuple of acb
         v_k = ∮_{a_k} ω.
     ring : EndomorphismRing
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> ring = ip.endomorphisms([[1j, 0], [0, 2j]])
+    >>> ip.eigenform_ring(ring, [1, 0]).rank
+    6
     """
 
     lattice: MatrixLattice

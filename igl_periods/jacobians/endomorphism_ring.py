@@ -77,6 +77,14 @@ class EndomorphismRing(Sequence[Ints]):
     bits : int
         Working precision of Π.
     evidence : RingEvidence
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> Pi = [[1.5j, -0.5], [-0.5, 1.5j]]
+    >>> ring = ip.endomorphisms(Pi)
+    >>> ring.rank, ring.name
+    (8, 'M₂(Q(i))')
     """
 
     lattice: MatrixLattice

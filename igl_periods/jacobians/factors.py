@@ -217,6 +217,13 @@ class JacobianFactors(Sequence[IsotypicPart]):
     ----------
     parts : tuple of IsotypicPart
     ring : EndomorphismRing
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> Pi = [[1.5j, -0.5], [-0.5, 1.5j]]
+    >>> print(ip.jacobian_factors(Pi))
+    E²
     """
 
     parts: tuple[IsotypicPart, ...]

@@ -75,6 +75,15 @@ def load_mesh(
     -----
     UserWarning
         Of what is odd about the file, though it could be read.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> V, F, report = ip.load_mesh(ip.sample_files()["wente_20x20"])
+    >>> V.shape, F.shape
+    ((400, 3), (800, 3))
+    >>> report.result.components[0]
+    MeshComponent(triangles=800, orientable=True, genus=1, boundary_loops=0)
     """
     mesh = read_mesh_file(path)
     try:
@@ -125,6 +134,15 @@ def split_components(V: ArrayLike, F: ArrayLike) -> list[tuple[Floats, Ints]]:
     ------
     MeshError
         If the arrays have a wrong shape or type, or an index is out of range.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> import numpy as np
+    >>> V, F = ip.surfaces.torus_of_revolution(2.0, 1.0, 12, 8)
+    >>> two = np.concatenate([V, V + 9]), np.concatenate([F, F + len(V)])
+    >>> [len(faces) for _, faces in ip.split_components(*two)]
+    [192, 192]
     """
     positions = checked_positions(V)
     faces = checked_corners(F, len(positions))

@@ -58,6 +58,12 @@ class SymplecticGroup(Sequence[Ints]):
     ------
     RuntimeError
         If a search did not come to its end: then this is not the group.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> ip.symplectic_automorphism_group([[1j]], tolerance=1e-9).order
+    4
     """
 
     elements: Isomorphisms

@@ -90,6 +90,13 @@ class Isomorphisms(list[Ints]):
         limit stopped it.  Nothing follows from what is not in an incomplete list.
     gave_up : str
         Which work limit stopped the search; empty if none did.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> found = ip.symplectic_isomorphisms([[1j]], [[1j]], 1e-9)
+    >>> len(found), found.complete
+    (4, True)
     """
 
     def __init__(self, tolerance: float, certified: bool) -> None:

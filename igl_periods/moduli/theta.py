@@ -132,6 +132,14 @@ def is_hyperelliptic(Pi: ArrayLike | PointInBalls) -> bool | None:
     ------
     NotASiegelPointError, ValueError
         As :func:`vanishing_even_characteristics`.
+
+    Examples
+    --------
+    Every curve of genus 2 is.
+
+    >>> import igl_periods as ip
+    >>> ip.is_hyperelliptic([[2j, 0.5], [0.5, 2j]])
+    True
     """
     genus = len(check_siegel_point(Pi))
     if genus < 3:

@@ -116,6 +116,14 @@ class PeriodMatrix(Differentiable):
         Energies in balls, with which the bound is proved.
     forms : SolvedForms or None
         The harmonic forms, where they were kept for derivatives (``keep_forms=True``).
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> ip.period_matrix(ip.surfaces.square_tiled_surface("omega_3", n=2)).reduced()
+    PeriodMatrix of genus 2, bound 0.0826
+       1.2 i   -0.6 i
+      -0.6 i    1.2 i
     """
 
     dirichlet: Floats

@@ -49,6 +49,15 @@ def real_structure(pm: PeriodMatrix) -> Ints:
     ------
     ComplexError
         If ``pm.complex`` is no double.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> V, F = ip.surfaces.planar_domain([0, 4, 4 + 4j, 4j], [[1 + 1j, 3 + 1j, 3 + 3j, 1 + 3j]])
+    >>> pm = ip.period_matrix(ip.double(ip.DeltaComplex.from_mesh(V, F)))
+    >>> ip.real_structure(pm)
+    array([[-1,  0],
+           [ 0,  1]])
     """
     check_period_matrix(pm)
     g = pm.genus

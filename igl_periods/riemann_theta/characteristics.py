@@ -44,6 +44,13 @@ class SpinStructure:
     ----------
     a, b : tuple of int
         g digits 0 or 1 each: the characteristic is (a/2, b/2).
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> s = ip.SpinStructure((0, 1), (1, 1))
+    >>> s.is_even
+    False
     """
 
     a: tuple[int, ...]

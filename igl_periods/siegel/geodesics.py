@@ -44,6 +44,12 @@ def siegel_logarithm(Pi: ArrayLike, target: ArrayLike) -> Complexes:
         If one of them is no point of the half-space.
     ValueError
         If they have different genus.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> ip.siegel_logarithm([[1j]], [[2j]]).round(9)
+    array([[0.+0.69314718j]])
     """
     start, end = check_same_genus(Pi, target)
     L, Z = _disk_point(start, end)
@@ -60,6 +66,12 @@ def siegel_exponential(Pi: ArrayLike, velocity: ArrayLike) -> Complexes:
         If Π is no point of the half-space.
     ValueError
         If the velocity has another shape.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> ip.siegel_exponential([[1j]], ip.siegel_logarithm([[1j]], [[2j]])).round(9)
+    array([[0.+2.j]])
     """
     start = check_siegel_point(Pi)
     tangent = np.asarray(velocity, dtype=np.complex128)

@@ -83,6 +83,13 @@ class SiegelReduction(NamedTuple):
         γ · Π.
     gamma : (2g, 2g) int
         Integer symplectic, exactly.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> matrix, gamma = ip.siegel_reduce([[5 + 0.5j]])
+    >>> matrix, gamma.tolist()
+    (array([[0.+2.j]]), [[0, -1], [1, -5]])
     """
 
     matrix: Complexes

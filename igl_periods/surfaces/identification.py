@@ -106,6 +106,13 @@ class Identification(Sequence[Match]):
         Those for which the search was given up.
     radius : float
         The deviation up to which surfaces are listed.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> found = ip.identify([[1j]])
+    >>> [match.surface.name for match in found]
+    ['square torus']
     """
 
     matches: tuple[Match, ...]

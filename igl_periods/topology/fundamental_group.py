@@ -141,6 +141,15 @@ def shortest_loops(
     References
     ----------
     Erickson, Whittlesey, "Greedy optimal homotopy and homology generators" (2005).
+
+    Examples
+    --------
+    As many as the fundamental group has generators.
+
+    >>> import igl_periods as ip
+    >>> K = ip.surfaces.square_tiled_surface("omega_1", n=2)
+    >>> len(ip.shortest_loops(K))
+    4
     """
     lengths = checked_edge_lengths(K, edge_lengths)
     trees = shortest_tree_cotree(K, root, lengths)

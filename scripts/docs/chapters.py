@@ -12,8 +12,9 @@ import re
 from pathlib import Path
 from types import ModuleType
 
-import igl_periods as ip
 from plain_mathematics import escaped, escaped_lines, without_roles
+
+import igl_periods as ip
 
 SOURCE = Path(ip.__file__).parent
 # Public modules that are no packages, and the chapters to which they belong.
@@ -130,7 +131,9 @@ def chapter(package):
     doc = inspect.getdoc(face(package))
     first, _, rest = doc.partition("\n")
     yield f".. py:module:: igl_periods.{package}\n\n"
-    yield title(package.replace("_", " ").capitalize() + ": " + decapitalised(escaped(first.rstrip("."))))
+    yield title(
+        package.replace("_", " ").capitalize() + ": " + decapitalised(escaped(first.rstrip(".")))
+    )
     yield "\n".join(escaped_lines(rest.strip().splitlines())) + "\n\n"
     names = [entry for entry in entries_of()[package] if is_for_users(entry)]
     if names:
@@ -200,15 +203,11 @@ def reference_index():
 def pages():
     """{path below the sources: text} of all pages made from the package."""
     made = {f"chapters/{name}.rst": "".join(chapter(name)) for name in package_names()}
-    made |= {
-        f"reference/{name}.rst": "".join(reference(name)) for name in [*package_names(), HOME]
-    }
+    made |= {f"reference/{name}.rst": "".join(reference(name)) for name in [*package_names(), HOME]}
     made["reference/index.rst"] = "".join(reference_index())
     text = (
         "The packages of the library are the chapters of its mathematics; each begins with its\n"
         "conventions and formulas.  They are in reading order."
     )
-    made["chapters/index.rst"] = "".join(
-        contents("Chapters", text, "chapters", package_names())
-    )
+    made["chapters/index.rst"] = "".join(contents("Chapters", text, "chapters", package_names()))
     return made

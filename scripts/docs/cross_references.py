@@ -31,7 +31,12 @@ def _found(target, module):
     """The object that is meant: by its path, from the module of the text, or anywhere inside."""
     inside = sorted(name for name in sys.modules if name.startswith("igl_periods."))
     own = [name for name in inside if module and name.startswith(f"{module}.")]
-    for prefix in ("", f"{module}." if module else "", "igl_periods.", *(f"{n}." for n in own + inside)):
+    for prefix in (
+        "",
+        f"{module}." if module else "",
+        "igl_periods.",
+        *(f"{n}." for n in own + inside),
+    ):
         found = _followed(prefix + target)
         if found[0] is not None:
             return found
@@ -48,7 +53,9 @@ def _followed(path):
             continue
         owner, members = None, []
         for name in parts[n:]:
-            value = inspect.getattr_static(value, name, None) if owner else getattr(value, name, None)
+            value = (
+                inspect.getattr_static(value, name, None) if owner else getattr(value, name, None)
+            )
             if value is None:
                 return None, None, []
             if owner is not None:
@@ -61,7 +68,10 @@ def _followed(path):
 
 def page_of_module(target, module):
     """The chapter of the package that a module is in, or None."""
-    for path in (target, f"{module}{target}" if target.startswith(".") else f"igl_periods.{target}"):
+    for path in (
+        target,
+        f"{module}{target}" if target.startswith(".") else f"igl_periods.{target}",
+    ):
         parts = path.split(".")
         if parts[0] == "igl_periods":
             if len(parts) == 1:

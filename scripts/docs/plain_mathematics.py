@@ -7,7 +7,9 @@ they are text; literals, formulas, examples and real emphasis stay.
 import re
 
 # What is left as it is, within a line: literals, roles, emphasis and strong emphasis.
-_KEPT = re.compile(r"``.*?``|:\w[\w:]*:`[^`]*`|`[^`]*`_*|(?<![\w\\])\*\*?[^\s*][^*]*?\*?\*(?!\w)|\\.")
+_KEPT = re.compile(
+    r"``.*?``|:\w[\w:]*:`[^`]*`|`[^`]*`_*|(?<![\w\\])\*\*?[^\s*][^*]*?\*?\*(?!\w)|\\."
+)
 _BLOCK = re.compile(r"^(\s*)(?:\.\. (?:math|code-block)::|.*::$)")
 
 

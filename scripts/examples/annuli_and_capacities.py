@@ -51,8 +51,8 @@ plt.title("Potential of one conductor")
 plt.show()
 
 # %%
-# Extremal length of a quadrilateral: the resistance between its first side and the opposite one.  Of
-# a rectangle it is their distance over their length.
+# Extremal length of a quadrilateral: the resistance between its first side and the opposite one.
+# Of a rectangle it is their distance over their length.
 
 V, F = planar_domain([0, 3, 3 + 1j, 1j])
 print(ip.extremal_length(V, F, [0, 1, 2, 3]))

@@ -12,7 +12,6 @@ import numpy as np
 
 import igl_periods as ip
 
-
 # %%
 # A triangular lattice of a × b cells on a torus: which side is glued to which.  Side s is opposite
 # corner s; half-edge 3 f + s is side s of triangle f.

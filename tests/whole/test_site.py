@@ -70,7 +70,9 @@ def test_names_of_users_are_in_the_index(pages):
         if not isinstance(getattr(ip, name), ModuleType):
             assert f"<igl_periods.{name}>`" in pages["reference/index.rst"], name
     for name in ip.surfaces.__all__:
-        assert re.search(rf"<igl_periods\.(surfaces\.)?{name}>`", pages["reference/index.rst"]), name
+        assert re.search(rf"<igl_periods\.(surfaces\.)?{name}>`", pages["reference/index.rst"]), (
+            name
+        )
 
 
 @pytest.mark.parametrize(
