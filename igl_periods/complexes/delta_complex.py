@@ -322,7 +322,7 @@ class DeltaComplex(ReadOnlyArrays):
         Raises
         ------
         MeshError
-            If the text is no JSON of that form.
+            If the text is not JSON of that form.
         ComplexError
             If the gluing is none.
         """

@@ -81,7 +81,7 @@ def deform_to(
     MeshError, ComplexError
         As :func:`period_matrix`; and if the genus is 0, or there are no positions.
     NotASiegelPointError
-        If the target is no point of the Siegel upper half-space.
+        If the target is not a point of the Siegel upper half-space.
     ValueError
         If it has another genus, the basis another shape, the tolerance is not positive, or the
         surface is to stay embedded and is not.

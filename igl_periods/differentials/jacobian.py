@@ -111,7 +111,7 @@ def divisor_class(pm: PeriodMatrix, divisor: Mapping[int, int], base: int = 0) -
     Raises
     ------
     ValueError
-        If there is no such vertex, or a multiplicity is no integer.
+        If there is no such vertex, or a multiplicity is not an integer.
 
     Examples
     --------

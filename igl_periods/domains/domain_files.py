@@ -88,7 +88,7 @@ def read_domain(path: str | PathLike[str]) -> Rings:
     except MeshError:
         raise
     except (ValueError, KeyError, IndexError, TypeError, AttributeError, RecursionError) as error:
-        raise MeshError(f"this is no GeoJSON file with a polygon ({error}).") from error
+        raise MeshError(f"this is not a GeoJSON file with a polygon ({error}).") from error
     return outer, holes
 
 
@@ -119,7 +119,7 @@ def _read_svg(path: str | PathLike[str]) -> Rings:
         try:
             drawing = svgelements.SVG.parse(file)
         except (ParseError, ValueError) as error:
-            raise MeshError(f"this is no SVG file ({error}).") from error
+            raise MeshError(f"this is not an SVG file ({error}).") from error
     shapes = [shape for shape in drawing.elements() if isinstance(shape, svgelements.Shape)]
     rings = [ring for shape in shapes for ring in _rings(svgelements.Path(shape), type(shape))]
     if not rings:

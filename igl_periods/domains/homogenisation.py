@@ -125,8 +125,8 @@ def effective_conductivity(
     Raises
     ------
     ComplexError
-        If the complex is no quotient by a lattice, is not oriented and connected, or a conducting
-        boundary leads from cell to cell.
+        If the complex is not a quotient by a lattice, is not oriented and connected, or a
+        conducting boundary leads from cell to cell.
 
     Warns
     -----

@@ -108,8 +108,8 @@ def extremal_length(
     Raises
     ------
     ComplexError
-        If the corners are no four vertices of one boundary loop in its order, or the surface is not
-        connected and oriented.
+        If the corners are not four vertices of one boundary loop in its order, or the surface is
+        not connected and oriented.
 
     Warns
     -----

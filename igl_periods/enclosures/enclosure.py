@@ -145,7 +145,7 @@ class PeriodEnclosure:
         Raises
         ------
         ValueError
-            If gamma is no integer symplectic matrix of this size.
+            If gamma is not an integer symplectic matrix of this size.
         ComplexError
             If its entries are so large that no digits are left.
         """

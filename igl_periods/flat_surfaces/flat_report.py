@@ -61,7 +61,7 @@ class FlatSurfaceReport(ReadOnlyArrays):
     holonomy : int or None
         The order of the holonomy group; None if it is infinite.
     orders : tuple of int or None
-        The orders of dz^k at the vertices that are no marked points, decreasing; None for an
+        The orders of dz^k at the vertices that are not marked points, decreasing; None for an
         infinite holonomy group.
     marked_points : int
         Vertices of the angle 2π.

@@ -37,7 +37,7 @@ def from_flatsurf(S: Any) -> DeltaComplex:
     ------
     ComplexError
         If it has no such methods, infinitely many polygons or a boundary, or glues sides by
-        similarities that are no isometries.
+        similarities that are not isometries.
 
     Examples
     --------

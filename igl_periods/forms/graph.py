@@ -153,7 +153,7 @@ def double_graph(K: DeltaComplex, weights: ArrayLike | None = None) -> DoubleGra
 
     Examples
     --------
-    The square torus of four squares: their diagonals are no edges of Γ.
+    The square torus of four squares: their diagonals are not edges of Γ.
 
     >>> from igl_periods import DeltaComplex
     >>> torus = DeltaComplex.from_squares([((0, 0), (0, 2)), ((0, 1), (0, 3))], n=2)

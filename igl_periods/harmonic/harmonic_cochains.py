@@ -156,7 +156,7 @@ def checked_basis(K: DeltaComplex, cocycles: csr_array | None) -> csr_array:
     if around.count_nonzero():
         raise ComplexError("the cocycles are not closed on the triangles of this complex.")
     if not np.array_equal(pairing(K, cocycles, cocycles), standard_form(K.genus)):
-        raise ComplexError("the cocycles are no canonical basis: their pairing is not J.")
+        raise ComplexError("the cocycles are not a canonical basis: their pairing is not J.")
     return cocycles
 
 

@@ -83,7 +83,7 @@ class EigenformRing:
     def real_multiplication(self) -> NumberField | None:
         """The totally real field of which an order acts with ω as eigenform; None if only Q does.
 
-        None too if the symmetric endomorphisms are no field: then ω comes from a factor, and
+        None too if the symmetric endomorphisms are not a field: then ω comes from a factor, and
         ``splits`` is true.
         """
         field = field_of(self.symmetric)

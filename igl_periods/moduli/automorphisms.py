@@ -113,7 +113,7 @@ class SymplecticGroup(Sequence[Ints]):
         Raises
         ------
         ValueError
-            If the elements are no group: see ``generators``.
+            If the elements are not a group: see ``generators``.
         """
         return group_of_matrices(list(self.elements))
 
@@ -164,7 +164,7 @@ class SymplecticGroup(Sequence[Ints]):
         Raises
         ------
         ValueError
-            If the elements are no group: under a large tolerance, transformations that only
+            If the elements are not a group: under a large tolerance, transformations that only
             nearly fix Π need not compose.
         """
         members = {gamma.tobytes() for gamma in self.elements}

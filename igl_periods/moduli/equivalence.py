@@ -184,7 +184,7 @@ def symplectic_isomorphisms(
     Raises
     ------
     NotASiegelPointError
-        If an argument is no point of the Siegel upper half-space.
+        If an argument is not a point of the Siegel upper half-space.
     ValueError
         If the genera differ, the tolerance is not positive or too large to separate anything, or
         there is no tolerance: an uncertified PeriodMatrix has none.  If an option has no such

@@ -66,7 +66,7 @@ def theta_constants(Pi: ArrayLike | PointInBalls) -> Complexes | flint.acb_mat:
     Raises
     ------
     NotASiegelPointError
-        If Π is no point of the Siegel upper half-space.
+        If Π is not a point of the Siegel upper half-space.
 
     Examples
     --------
@@ -102,7 +102,7 @@ def vanishing_even_characteristics(
     Raises
     ------
     NotASiegelPointError
-        If Π is no point of the Siegel upper half-space.
+        If Π is not a point of the Siegel upper half-space.
     ValueError
         If Π is a ``PeriodMatrix`` without a certificate.
     """

@@ -93,7 +93,7 @@ def period_matrix(
     Raises
     ------
     MeshError
-        If V and F are no triangulated surface (:meth:`DeltaComplex.from_mesh`).
+        If V and F are not a triangulated surface (:meth:`DeltaComplex.from_mesh`).
     ComplexError
         If the surface is not closed, oriented and connected, its triangles are too degenerate, or
         the weights define no positive definite energy; with ``rigorous``, if rounding leaves

@@ -262,7 +262,7 @@ class PeriodMatrix(Differentiable):
         Raises
         ------
         ValueError
-            If gamma is no integer symplectic matrix of this size.
+            If gamma is not an integer symplectic matrix of this size.
         ComplexError
             If it is so large that no digits of the energies would be left.
         """

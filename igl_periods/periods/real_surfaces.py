@@ -48,7 +48,7 @@ def real_structure(pm: PeriodMatrix) -> Ints:
     Raises
     ------
     ComplexError
-        If ``pm.complex`` is no double.
+        If ``pm.complex`` is not a double.
 
     Examples
     --------

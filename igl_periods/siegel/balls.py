@@ -27,7 +27,7 @@ def to_flint(Pi: ArrayLike | PointInBalls) -> flint.acb_mat:
     Raises
     ------
     NotASiegelPointError
-        If Π is no point of the Siegel upper half-space.
+        If Π is not a point of the Siegel upper half-space.
 
     Examples
     --------

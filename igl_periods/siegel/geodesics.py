@@ -41,7 +41,7 @@ def siegel_logarithm(Pi: ArrayLike, target: ArrayLike) -> Complexes:
     Raises
     ------
     NotASiegelPointError
-        If one of them is no point of the half-space.
+        If one of them is not a point of the half-space.
     ValueError
         If they have different genus.
 
@@ -63,7 +63,7 @@ def siegel_exponential(Pi: ArrayLike, velocity: ArrayLike) -> Complexes:
     Raises
     ------
     NotASiegelPointError
-        If Π is no point of the half-space.
+        If Π is not a point of the half-space.
     ValueError
         If the velocity has another shape.
 
@@ -103,7 +103,7 @@ def moduli_path(Pi1: ArrayLike, Pi2: ArrayLike, n: int) -> Complexes:
     Raises
     ------
     NotASiegelPointError
-        If one of them is no point of the half-space.
+        If one of them is not a point of the half-space.
     ValueError
         If they have different genus, or n < 2.
 
@@ -130,7 +130,7 @@ def orthonormal_weights(Pi: ArrayLike) -> Complexes:
     Raises
     ------
     NotASiegelPointError
-        If Π is no point of the half-space.
+        If Π is not a point of the half-space.
     """
     inverse = np.linalg.inv(np.linalg.cholesky(check_siegel_point(Pi).imag))
     g = len(inverse)

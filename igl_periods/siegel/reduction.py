@@ -166,7 +166,7 @@ def siegel_reduce(
     Raises
     ------
     NotASiegelPointError
-        If Π is no point of the Siegel upper half-space, or so close to its boundary that γ would
+        If Π is not a point of the Siegel upper half-space, or so close to its boundary that γ would
         not fit into 64-bit integers.
     ValueError
         If its genus is larger than ``max_genus``.

@@ -195,7 +195,7 @@ def identify(Pi: Any, F: Any = None, tolerance: float | None = None) -> Identifi
     Raises
     ------
     NotASiegelPointError
-        If Π is no point of the Siegel upper half-space.
+        If Π is not a point of the Siegel upper half-space.
     ValueError
         If the tolerance is negative, or with the certificate's too large to separate anything.
 

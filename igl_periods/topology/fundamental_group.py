@@ -135,7 +135,7 @@ def shortest_loops(
     Raises
     ------
     ComplexError
-        If the surface is not closed, oriented and connected, ``root`` is no vertex, or edge
+        If the surface is not closed, oriented and connected, ``root`` is not a vertex, or edge
         lengths are not positive and finite.
 
     References

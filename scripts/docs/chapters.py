@@ -17,7 +17,7 @@ from plain_mathematics import escaped, escaped_lines, without_roles
 import igl_periods as ip
 
 SOURCE = Path(ip.__file__).parent
-# Public modules that are no packages, and the chapters to which they belong.
+# Public modules that are not packages, and the chapters to which they belong.
 LONE_MODULES = {"genus_two": "moduli"}
 # Packages whose names one imports from them; of the others what matters is in igl_periods itself.
 ENTERED = ("surfaces", "forms", "domains", "pictures", "reports", "batch", "distributed")

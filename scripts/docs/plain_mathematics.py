@@ -1,4 +1,4 @@
-"""Docstrings as reStructuredText: absolute values and stars of the mathematics are no markup.
+"""Docstrings as reStructuredText: absolute values and stars of the mathematics are not markup.
 
 ``|ζ|`` would be a substitution and ``*ω`` the beginning of an emphasis.  Both are escaped where
 they are text; literals, formulas, examples and real emphasis stay.

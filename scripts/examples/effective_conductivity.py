@@ -2,7 +2,7 @@
 Effective conductivities of periodic sheets
 ===========================================
 
-What the period matrix has to do with effective conductivities.  A torus in space with the period matrix τ conducts like a flat one: as a tensor in the plane of the
+A torus in space with the period matrix τ conducts like a flat one: as a tensor in the plane of the
 lattice, of determinant 1.  Perforated plates have holes that insulate or conduct, and the two are
 dual (Keller 1964).  The numbers are proved: lower ≤ σ ≤ upper.
 """

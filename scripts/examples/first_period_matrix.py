@@ -33,7 +33,7 @@ lines = [
 scan.write_text("solid scan\n" + "\n".join(lines) + "\nendsolid scan\n")
 
 # %%
-# Reading it shows what is wrong.  Without repair this is no closed surface.
+# Reading it shows what is wrong.  Without repair this is not a closed surface.
 
 print(ip.load_mesh(scan)[2])
 

@@ -21,7 +21,7 @@ from igl_periods.surfaces import torus_of_revolution
 COUNT = int(os.environ.get("IGL_PERIODS_EXAMPLE_MESHES", "12"))
 
 # %%
-# A folder of meshes: tori of random radii, with noise.  One file is no mesh.
+# A folder of meshes: tori of random radii, with noise.  One file is not a mesh.
 
 
 def write_meshes(folder):

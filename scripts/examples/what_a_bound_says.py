@@ -48,7 +48,7 @@ pm = ip.period_matrix(*mesh, tolerance=1e-8, rigorous=True)
 assert pm.rigorous
 
 # %%
-# Weights that are no geometry have no bound.  Nothing is claimed where nothing is known.
+# Weights that come from no geometry have no bound.  Nothing is claimed where nothing is known.
 
 pm = ip.period_matrix(*mesh, weights="extrinsic", delaunay=False)
 assert pm.bound is None

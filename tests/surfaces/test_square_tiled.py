@@ -193,7 +193,7 @@ def test_wrong_gluings_are_refused():
 
 
 def test_wrong_origamis_are_refused():
-    with pytest.raises(ip.ComplexError, match="up is no permutation"):
+    with pytest.raises(ip.ComplexError, match="up is not a permutation"):
         origami([1, 0, 2], [2, 2, 0])
     with pytest.raises(ip.ComplexError, match="right must be a list of integers"):
         origami([0.5, 1.0], [0, 1])

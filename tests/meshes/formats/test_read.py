@@ -1,4 +1,4 @@
-"""Every format: what is written is read, and what is no mesh is refused."""
+"""Every format: what is written is read, and what is not a mesh is refused."""
 
 import struct
 
@@ -226,5 +226,5 @@ def test_missing_file_and_folder(tmp_path):
     with pytest.raises(FileNotFoundError, match=r"there is no mesh file '.*nothing\.off'"):
         load_mesh(tmp_path / "nothing.off")
     (tmp_path / "folder.off").mkdir()
-    with pytest.raises(ip.MeshError, match="this is no file"):
+    with pytest.raises(ip.MeshError, match="this is not a file"):
         load_mesh(tmp_path / "folder.off")
