@@ -109,7 +109,7 @@ from .delaunay import Flips, cocircularity_allowance, delaunay_flips, intrinsic_
 from .moved_lengths import edge_directions, edge_lengths, with_edge_lengths, with_positions
 from .flipped_lengths import FlipDerivative, flip_derivatives, pull_back, push_forward
 from .midpoint_subdivision import split
-from .barycentre_insertion import insert_barycentres, is_divisible
+from .barycentre_insertion import Barycentres, insert_barycentres, is_divisible
 from .doubling import Involution, double, involution, lift
 
 __all__ = [
@@ -192,6 +192,7 @@ __all__ = [
     "pull_back",
     "push_forward",
     "split",
+    "Barycentres",
     "insert_barycentres",
     "is_divisible",
     "double",

@@ -25,7 +25,7 @@ Delaunay flips are to follow.  On a region of equilateral triangles the two toge
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -33,6 +33,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array, hstack
 
 from igl_periods.arrays import Floats, Ints
+from igl_periods.display import arrays_repr
 from igl_periods.errors import ComplexError
 
 from .cochains import check_cochains
@@ -43,6 +44,29 @@ _SIDE = np.arange(3)
 _AFTER, _BEFORE = (_SIDE + 1) % 3, (_SIDE + 2) % 3
 # Children whose metric rounding changes by more than this times an ulp are too thin: 4/θ² = 1e8.
 _LARGEST_SENSITIVITY = 1e8
+
+
+@dataclass(frozen=True, eq=False)
+class Barycentres:
+    """Which faces were divided at their barycentres.
+
+    Attributes
+    ----------
+    edge : (3 r,) int
+        The new edges, those from each barycentre to the corners 0, 1, 2 of its face.
+    sides : (r, 3) int
+        The edges of the divided faces.
+    """
+
+    edge: Ints
+    sides: Ints
+
+    __repr__ = arrays_repr
+
+    @classmethod
+    def of(cls, K: DeltaComplex, faces: Ints) -> Barycentres:
+        """As :func:`insert_barycentres` makes them."""
+        return cls(K.n_edges + np.arange(3 * len(faces)), K.edge[faces])
 
 
 def insert_barycentres(
@@ -81,7 +105,7 @@ def insert_barycentres(
     moved = np.arange(K.twin.size)
     moved.reshape(-1, 3)[faces] = 3 * child + _SIDE
     twin = np.where(K.twin >= 0, moved[K.twin], -1)
-    distance = _barycentre_distances(K.lengths[faces])
+    distance = barycentre_distances(K.lengths[faces])
     new_edge = K.n_edges + np.arange(3 * r).reshape(-1, 3)
     new_vertex = np.broadcast_to(K.n_vertices + np.arange(r)[:, None], (r, 3))
     own = K.corner_vertex[faces]
@@ -150,12 +174,12 @@ def _check_children(K: DeltaComplex, faces: Ints) -> None:
 
 def _children(lengths: Floats) -> Floats:
     """Sides of the children of triangles, three rows for each; (3 r, 3)."""
-    distance = _barycentre_distances(lengths)
+    distance = barycentre_distances(lengths)
     child = np.stack([lengths, distance[:, _BEFORE], distance[:, _AFTER]], axis=2)
     return child.reshape(-1, 3)
 
 
-def _barycentre_distances(lengths: Floats) -> Floats:
+def barycentre_distances(lengths: Floats) -> Floats:
     """Distances of the barycentre from the corners; (r, 3).
 
     Two thirds of the medians, 9 d² = 2 b² + 2 c² − a² = (b − c)² + (b + c − a)(b + c + a) for the

@@ -30,6 +30,7 @@ from igl_periods.errors import ComplexError
 
 from .checked_arrays import checked_array
 from .delta_complex import DeltaComplex
+from .exact_lengths import LengthsAbove
 from .gluings import reversing_sides
 from .half_edges import forward_half_edges
 from .surface_arguments import of_a_surface
@@ -86,7 +87,8 @@ def double(K: DeltaComplex, *, along: ArrayLike | None = None) -> DeltaComplex:
     -------
     DeltaComplex
         With 2 m faces: face f + m is the copy of face f, with corners 0, 2, 1 of f in this
-        order.  Vertices have the labels and positions of those they lie over.  It is connected iff
+        order.  Vertices have the labels and positions of those they lie over, edges their exact
+        lengths.  It is connected iff
         ``K`` is connected and has a boundary or is not orientable; the double of a closed
         orientable surface is that surface and its mirror image, see
         :meth:`DeltaComplex.components`.
@@ -121,7 +123,16 @@ def double(K: DeltaComplex, *, along: ArrayLike | None = None) -> DeltaComplex:
         positions=None if K.positions is None else K.positions[below],
         mollification=K.mollification,
         cell=None if K.cell is None else K.cell.doubled(),
+        exact_lengths=_lengths_above(K, doubled),
     )
+
+
+def _lengths_above(K: DeltaComplex, doubled: DeltaComplex) -> LengthsAbove | None:
+    if K.exact_lengths is None:
+        return None
+    below = np.empty(doubled.n_edges, dtype=np.int64)
+    below[doubled.edge] = np.concatenate([K.edge, K.edge[:, _MIRROR]])
+    return LengthsAbove(K.exact_lengths, below)
 
 
 def _mirrors(K: DeltaComplex, along: ArrayLike) -> Bools:

@@ -48,6 +48,27 @@ class LengthsByKind(ReadOnlyArrays):
         return [values[k] for k in self.kind.tolist()]
 
 
+@dataclass(frozen=True, eq=False)
+class LengthsAbove(ReadOnlyArrays):
+    """The lengths of a surface over another one, whose edges lie over edges of that.
+
+    Attributes
+    ----------
+    lengths : function
+        The lengths below.
+    edge : (n_edges,) int
+        The edge below each edge.
+    """
+
+    lengths: ExactLengths
+    edge: Ints
+
+    def __call__(self, bits: int) -> list[flint.arb]:
+        """The lengths of the edges."""
+        below = list(self.lengths(bits))
+        return [below[e] for e in self.edge.tolist()]
+
+
 def by_kind(edge: Ints, kind: Ints, formulas: Sequence[Callable[[], flint.arb]]) -> LengthsByKind:
     """Lengths whose kinds are known for the sides of all faces, (m, 3) int like ``edge``."""
     of_edge = np.zeros(int(edge.max()) + 1, dtype=np.int64)

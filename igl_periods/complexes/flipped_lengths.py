@@ -1,4 +1,4 @@
-r"""How the lengths after Delaunay flips depend on the lengths before.
+r"""How the lengths after flips, and divisions of faces, depend on the lengths before.
 
 Four points p, q, A, B of the plane have one affine dependency, :math:`\sum_i a_i x_i = 0` with
 :math:`\sum_i a_i = 0`, and their six distances move such that
@@ -14,6 +14,10 @@ length is a smooth function of the five old ones, of degree 1, with the derivati
           \qquad
           \frac{\partial l_{pq}}{\partial l_{AB}} = -\frac{|Bpq|\,|Apq|}{|ABp|\,|ABq|}
           \frac{l_{AB}}{l_{pq}} .
+
+The three edges from the barycentre of a face to its corners are two thirds of its medians,
+:math:`9\, d_a^2 = 2 b^2 + 2 c^2 - a^2`.  That the barycentre goes on to be one is a choice of how
+points of the surface move, on which nothing depends that belongs to the metric.
 
 Flips of one round share no face, so no flipped edge is a side of another quadrilateral: a round is
 one sparse step.  Forward, derivatives of lengths go through the rounds in their order; backward,
@@ -34,6 +38,7 @@ Connelly, Guest, "Frameworks, tensegrities, and symmetry" (2022), for self-stres
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -41,6 +46,7 @@ import numpy as np
 from igl_periods.arrays import Floats, Ints
 from igl_periods.display import arrays_repr
 
+from .barycentre_insertion import Barycentres, barycentre_distances
 from .delaunay import Flips
 from .delta_complex import DeltaComplex
 from .moved_lengths import edge_lengths
@@ -49,48 +55,57 @@ from .triangles import apexes, double_areas
 
 @dataclass(frozen=True, eq=False)
 class FlipDerivative:
-    """The derivative of one round of flips.
+    """The derivative of one round of flips, or of one round of barycentres.
 
     Attributes
     ----------
     edge : (k,) int
-        The edges that are flipped.
-    sides : (k, 5) int
-        Edges on whose lengths those of the diagonals depend: the flipped edge itself, then the
-        four sides of its quadrilateral.
-    partial : (k, 5) float
+        The edges that are flipped, or the new ones.
+    sides : (k, 5) or (k, 3) int
+        Edges on whose lengths theirs depend: the flipped edge itself, then the four sides of its
+        quadrilateral; or the sides of the face.
+    partial : (k, 5) or (k, 3) float
         The derivatives.
+    n_edges : int
+        How many edges there are afterwards.
     """
 
     edge: Ints
     sides: Ints
     partial: Floats
+    n_edges: int
 
     __repr__ = arrays_repr
 
 
-def flip_derivatives(K: DeltaComplex, rounds: list[Flips]) -> list[FlipDerivative]:
+def flip_derivatives(K: DeltaComplex, moves: Sequence[Flips | Barycentres]) -> list[FlipDerivative]:
     """The derivatives of all rounds, at the lengths of the complex before the first one."""
     lengths = edge_lengths(K)
     derivatives = []
-    for flips in rounds:
-        sides = np.stack([flips.edge, flips.second, flips.third, flips.first, flips.fourth], axis=1)
-        diagonal, partial = _diagonals(lengths[sides])
-        derivatives.append(FlipDerivative(flips.edge, sides, partial))
-        lengths[flips.edge] = diagonal
+    for move in moves:
+        if isinstance(move, Flips):
+            edge = move.edge
+            sides = np.stack([edge, move.second, move.third, move.first, move.fourth], axis=1)
+            lengths[edge], partial = _diagonals(lengths[sides])
+        else:
+            edge, sides = move.edge, np.repeat(move.sides, 3, axis=0)
+            medians, partial = _medians(lengths[move.sides])
+            lengths = np.concatenate([lengths, medians])
+        derivatives.append(FlipDerivative(edge, sides, partial, lengths.size))
     return derivatives
 
 
 def push_forward(rounds: list[FlipDerivative], by_length: Floats) -> Floats:
-    """Derivatives of the lengths after all rounds, from those before; (…, n_edges) both."""
+    """Derivatives of the lengths after all rounds, from those before; (…, n_edges)."""
     moved = by_length.copy()
     for step in rounds:
+        moved = _resized(moved, step.n_edges)
         moved[..., step.edge] = np.sum(step.partial * moved[..., step.sides], axis=-1)
     return moved
 
 
-def pull_back(rounds: list[FlipDerivative], gradient: Floats) -> Floats:
-    """The gradient by the lengths before, from that by the lengths after; (…, n_edges) both."""
+def pull_back(rounds: list[FlipDerivative], gradient: Floats, n_edges: int) -> Floats:
+    """The gradient by the n_edges lengths before, from that by the lengths after; (…, n_edges)."""
     pulled = gradient.copy()
     for step in reversed(rounds):
         for row in pulled.reshape(-1, pulled.shape[-1]):
@@ -98,7 +113,29 @@ def pull_back(rounds: list[FlipDerivative], gradient: Floats) -> Floats:
             row[step.edge] = 0.0
             # A side may be met twice, by two quadrilaterals or by one.
             np.add.at(row, step.sides, share)
-    return pulled
+    return pulled[..., :n_edges]
+
+
+def _resized(moved: Floats, n_edges: int) -> Floats:
+    """With room for new edges."""
+    missing = n_edges - moved.shape[-1]
+    if missing == 0:
+        return moved
+    return np.concatenate([moved, np.zeros((*moved.shape[:-1], missing))], axis=-1)
+
+
+def _medians(lengths: Floats) -> tuple[Floats, Floats]:
+    """Distances of the barycentres from the corners of triangles (r, 3), and their derivatives.
+
+    Returns
+    -------
+    distance : (3 r,) float
+    partial : (3 r, 3) float
+    """
+    distance = barycentre_distances(lengths)
+    factors = np.full((3, 3), 2.0) - 3.0 * np.eye(3)
+    partial = factors * lengths[:, None, :] / (9.0 * distance[:, :, None])
+    return distance.ravel(), partial.reshape(-1, 3)
 
 
 def _diagonals(lengths: Floats) -> tuple[Floats, Floats]:

@@ -18,6 +18,9 @@ the matrices of surfaces are a thin set, and a target beside it is approached as
 ``charts``           what may move: vertices or lengths, and in which norm
 ``spectral_basis``   smooth functions, for displacements without ripples
 ``crossings``        where a surface passes through itself
+``contacts``         how near its parts are to each other
+``repulsion``        an energy that keeps them apart
+``relaxation``       its descent, while the period matrix stays
 ``gauss_newton``     the iteration
 ``results``          what it achieved
 ``targets``          ``deform_to``, ``lengths_with``, and the same along a path

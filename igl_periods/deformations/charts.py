@@ -17,7 +17,7 @@ A chart writes the surfaces near a given one as vectors x, 0 for the given one, 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -49,6 +49,10 @@ from igl_periods.options import checked_number, checked_switch
 from igl_periods.periods import Gradient
 
 from .crossings import passes_through_itself
+from .repulsion import Repulsion
+
+# The length of bending in the norm of descents, in square roots of the area.
+_BENDING = 0.3
 
 
 class Chart(Protocol):
@@ -78,6 +82,7 @@ class VertexChart:
     smoothing: float
     basis: Floats | None = None  # (n, k)
     embedded: bool = False
+    repulsion: Repulsion | None = None
 
     @classmethod
     def of(
@@ -111,6 +116,16 @@ class VertexChart:
             raise ValueError("the functions of the basis are linearly dependent, or nearly.")
         return cls(K, smoothing, B, embedded)
 
+    def repelling(self) -> VertexChart:
+        """The same, in a norm of second order, for descents of :meth:`energy`."""
+        return replace(self, repulsion=Repulsion.of(self.given))
+
+    def energy(self, K: DeltaComplex) -> tuple[float, Floats]:
+        """The Φ of the surface K, and its gradient by x; (N,)."""
+        assert self.repulsion is not None and K.positions is not None
+        energy, by_vertex = self.repulsion(K.positions)
+        return energy, self._restricted(by_vertex).ravel()
+
     def start(self) -> Floats:
         """No displacement."""
         n, d = np.shape(self._positions)
@@ -126,14 +141,13 @@ class VertexChart:
     def rows(self, K: DeltaComplex, gradient: Gradient) -> Floats:
         """Gradients by vertices, restricted to the functions of the basis."""
         assert gradient.vertices is not None
-        by_vertex = gradient.vertices
-        if self.basis is not None:
-            by_vertex = self.basis.T @ by_vertex
+        by_vertex = self._restricted(gradient.vertices)
         return np.asarray(by_vertex.reshape(len(by_vertex), -1))
 
     def raised(self, K: DeltaComplex, rows: Floats) -> Floats:
         """The norm is that of :func:`displacement_norm`, the same in each coordinate."""
-        norm, d = displacement_norm(K, self.smoothing), self._positions.shape[1]
+        bending = 0.0 if self.repulsion is None else _BENDING
+        norm, d = displacement_norm(K, self.smoothing, bending), self._positions.shape[1]
         columns = rows.reshape(len(rows), -1, d).transpose(1, 0, 2)
         load = columns.reshape(len(columns), -1)
         if self.basis is None:
@@ -153,6 +167,9 @@ class VertexChart:
     def _positions(self) -> Floats:
         assert self.given.positions is not None
         return self.given.positions
+
+    def _restricted(self, by_vertex: Floats) -> Floats:
+        return by_vertex if self.basis is None else np.asarray(self.basis.T @ by_vertex)
 
     def _displacement(self, x: Floats) -> Floats:
         coefficients = x.reshape(-1, self._positions.shape[1])
@@ -217,9 +234,17 @@ def _strains(K: DeltaComplex) -> tuple[Floats, Complexes]:
     return traces, (E.prod(axis=1) / (8.0 * area**2))[:, None] * E.conj()
 
 
-def displacement_norm(K: DeltaComplex, smoothing: float) -> csc_array:
-    """The matrix of the norm of displacements, one coordinate at a time; (n, n) sparse."""
+def displacement_norm(K: DeltaComplex, smoothing: float, bending: float = 0.0) -> csc_array:
+    """The matrix of the norm of displacements, one coordinate at a time; (n, n) sparse.
+
+    The square of the mass norm, plus ``smoothing``² times that of gradients, plus ``bending``⁴
+    times that of Laplacians, in units of the whole area.
+    """
     flipped, _ = intrinsic_delaunay(K, csr_array((0, K.n_edges), dtype=np.int64))
     area = face_areas(flipped)
-    masses = sparse.diags_array(spread_to_vertices(flipped, area) / area.sum())
-    return csc_array(masses + smoothing**2 * laplacian(flipped, cotan_weights(flipped)))
+    mass = spread_to_vertices(flipped, area) / area.sum()
+    L = laplacian(flipped, cotan_weights(flipped))
+    norm = sparse.diags_array(mass) + smoothing**2 * L
+    if bending > 0.0:
+        norm = norm + bending**4 * (L @ sparse.diags_array(1.0 / mass) @ L)
+    return csc_array(norm)

@@ -9,6 +9,8 @@ is crossed at the next step.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from igl_periods.arrays import Bools, Floats, Ints
@@ -23,22 +25,28 @@ def passes_through_itself(V: Floats, F: Ints) -> bool:
     ----------
     V, F : (n, 3) float, (m, 3) int
     """
+    corners = V[F]
+    return any(
+        _sides_meet(corners[i], corners[j]) or _sides_meet(corners[j], corners[i])
+        for i, j in near_pairs(V, F, 0.0)
+    )
+
+
+def near_pairs(V: Floats, F: Ints, reach: float) -> Iterator[tuple[Ints, Ints]]:
+    """Pairs of faces without a common vertex whose boxes are within ``reach``, in portions."""
     from scipy.spatial import cKDTree  # slow to import
 
     corners = V[F]
     centres = corners.mean(axis=1)
-    reach = float(np.linalg.norm(corners - centres[:, None], axis=2).max())
-    pairs = cKDTree(centres).query_pairs(2.0 * reach, output_type="ndarray")
-    low, high = corners.min(axis=1), corners.max(axis=1)
+    radius = float(np.linalg.norm(corners - centres[:, None], axis=2).max())
+    pairs = cKDTree(centres).query_pairs(2.0 * radius + reach, output_type="ndarray")
+    low, high = corners.min(axis=1) - 0.5 * reach, corners.max(axis=1) + 0.5 * reach
     for start in range(0, len(pairs), _PAIRS_AT_ONCE):
         i, j = pairs[start : start + _PAIRS_AT_ONCE].T
         near = ((low[i] <= high[j]) & (high[i] >= low[j])).all(axis=1)
         i, j = i[near], j[near]
         apart = (F[i][:, :, None] != F[j][:, None, :]).all(axis=(1, 2))
-        i, j = i[apart], j[apart]
-        if _sides_meet(corners[i], corners[j]) or _sides_meet(corners[j], corners[i]):
-            return True
-    return False
+        yield i[apart], j[apart]
 
 
 def _sides_meet(one: Floats, other: Floats) -> bool:

@@ -11,6 +11,9 @@ Where Newton's step is too long it is shortened, and as another attempt damped,
 (Levenberg–Marquardt), which holds back what costs much strain and gains little; the attempt that
 comes nearer is taken.  Where the distance does not fall, half the strain is allowed.
 
+A surface that is to stay embedded makes way after every step, where it is asked to
+(:mod:`igl_periods.deformations.relaxation`), and longer where no step was found.
+
 Where Π is a submersion the iteration ends with quadratic convergence.  At hyperelliptic surfaces of
 genus 3 or more the derivative of Π drops in rank: towards them distances fall by a constant factor,
 about 4 in each step.
@@ -35,6 +38,7 @@ from igl_periods.run_log import logger, stage
 from igl_periods.siegel import orthonormal_weights, siegel_distance, siegel_logarithm
 
 from .charts import Chart
+from .relaxation import Relaxation
 from .results import Step
 
 _LARGEST_STRAIN = 0.2
@@ -45,8 +49,14 @@ _MOST_HALVINGS = 12
 _DAMPING_RATIO = 1.3
 # Squares of singular values of J below this part of the largest are rounding.
 _RANK = 1e-13
-# Steps in a row that gain less than this part of the distance end the iteration.
-_LEAST_GAIN, _IDLE_STEPS = 0.002, 8
+# Steps in a row that gain less than this part of the distance end the iteration; the second part
+# is for surfaces that repel themselves, whose steps take long.
+_LEAST_GAIN, _LEAST_GAIN_REPELLING, _IDLE_STEPS = 0.002, 0.02, 8
+# Steps of descent after each step, unless the target is so near; and how often no step may be
+# found before that is the end.
+_DESCENTS, _NEAR, _MOST_FAILURES = 3, 0.005, 8
+# By how much a step may raise the energy of a surface that repels itself.
+_LARGEST_RISE = 0.5
 
 Computation = Callable[[DeltaComplex], PeriodMatrix]
 
@@ -61,11 +71,14 @@ class GaussNewton:
     compute : callable
         The period matrix of a surface, in the one marking.
     target : (g, g) complex
+    relaxation : Relaxation or None
+        What makes the surface give way after every step, on its fibre.
     """
 
     chart: Chart
     compute: Computation
     target: Complexes
+    relaxation: Relaxation | None = None
 
     def run(
         self, x: Floats, tolerance: float, max_steps: int
@@ -91,20 +104,30 @@ class GaussNewton:
         pm = self.compute(self.chart.surface(x))
         distance = siegel_distance(pm.matrix, self.target)
         steps: list[Step] = []
-        idle, verdict = 0, ""
+        idle, failures, verdict = 0, 0, ""
+        least_gain = _LEAST_GAIN if self.relaxation is None else _LEAST_GAIN_REPELLING
         while distance > tolerance and not verdict:
             if len(steps) == max_steps:
                 verdict = f"stopped after {max_steps} steps at a distance of {distance:.3g}"
                 break
             with stage(f"step {len(steps) + 1} towards the target, at distance {distance:.3g}"):
                 found = self._step(x, pm, distance)
-            if found is None:
-                verdict = _no_way(distance, pm.genus)
-                break
-            dx, there, after = found
-            steps.append(Step(after, self.chart.strain(pm.complex, dx)))
-            x, pm = x + dx, there
-            idle = idle + 1 if after > (1.0 - _LEAST_GAIN) * distance else 0
+                if found is None:
+                    failures += 1
+                    if self.relaxation is None or failures > _MOST_FAILURES:
+                        verdict = _no_way(distance, pm.genus)
+                        break
+                    x, pm = self.relaxation.descend(x, pm, 10 * failures, patient=True)
+                    distance = siegel_distance(pm.matrix, self.target)
+                    continue
+                dx, there, after = found
+                strain = self.chart.strain(pm.complex, dx)
+                x, pm = x + dx, there
+                if self.relaxation is not None and after > _NEAR:
+                    x, pm = self.relaxation.descend(x, pm, _DESCENTS)
+                    after = siegel_distance(pm.matrix, self.target)
+            steps.append(Step(after, strain))
+            idle = idle + 1 if after > (1.0 - least_gain) * distance else 0
             distance = after
             if idle == _IDLE_STEPS:
                 verdict = _no_way(distance, pm.genus)
@@ -118,10 +141,13 @@ class GaussNewton:
         K = pm.complex
         J, r = self._linearised(pm)
         raised = self.chart.raised(K, J)
-        solution = _DampedSolution.of(J @ raised.T, r, _moduli(pm.genus))
-        slack, strain = slacks(K.lengths), _LARGEST_STRAIN
+        solution = _DampedSolution.of(J @ raised.T, r, moduli(pm.genus))
+        slack = slacks(K.lengths)
+        strain = _LARGEST_STRAIN if self.relaxation is None else 0.5 * _LARGEST_STRAIN
+        ceiling = self._energy(K) + _LARGEST_RISE
         for _ in range(_MOST_HALVINGS):
-            tried = [self._tried(x, dx, slack) for dx in self._steps(K, raised, solution, strain)]
+            steps = self._steps(K, raised, solution, strain)
+            tried = [self._tried(x, dx, slack, ceiling) for dx in steps]
             best = min(tried, key=lambda one: one[2])
             if best[1] is not None and best[2] < distance:
                 return best[0], best[1], best[2]
@@ -144,13 +170,18 @@ class GaussNewton:
         damped = np.asarray(solution.at(high) @ raised)
         return [newton / too_much, damped / max(1.0, self.chart.strain(K, damped) / strain)]
 
+    def _energy(self, K: DeltaComplex) -> float:
+        """What the surface is to be kept from, 0 where it does not repel itself."""
+        return 0.0 if self.relaxation is None else self.relaxation.chart.energy(K)[0]
+
     def _tried(
-        self, x: Floats, dx: Floats, slack: Floats
+        self, x: Floats, dx: Floats, slack: Floats, ceiling: float
     ) -> tuple[Floats, PeriodMatrix | None, float]:
         """A step, with the matrix and the distance after it; None and ∞ where it cannot be made."""
         try:
             there = self.chart.surface(x + dx)
-            if (slacks(there.lengths) >= _SLACK_KEPT * slack).all():
+            kept = bool((slacks(there.lengths) >= _SLACK_KEPT * slack).all())
+            if kept and self._energy(there) <= ceiling:
                 pm = self.compute(there)
                 return dx, pm, siegel_distance(pm.matrix, self.target)
         except ComplexError as error:
@@ -190,7 +221,7 @@ class _DampedSolution:
         return np.asarray(self.U @ (self.r / (self.eigenvalues + mu)))
 
 
-def _moduli(g: int) -> int:
+def moduli(g: int) -> int:
     """Real dimension of the space of surfaces of genus g."""
     return 2 if g == 1 else 6 * g - 6
 

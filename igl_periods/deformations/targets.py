@@ -21,7 +21,8 @@ from igl_periods.siegel import check_siegel_point, siegel_distance, siegel_trans
 from igl_periods.topology import mark
 
 from .charts import Chart, LengthChart, VertexChart
-from .gauss_newton import GaussNewton
+from .gauss_newton import GaussNewton, moduli
+from .relaxation import Relaxation
 from .results import Deformation, DeformationWarning, Step
 
 _TOLERANCE = 1e-10
@@ -29,6 +30,8 @@ _MOST_STEPS = 200
 _SMOOTHING = 1.0
 # Linear functions lead to within this distance, before functions of high degree go on.
 _COARSE = 1e-6
+# Surfaces of more faces do not repel themselves: it takes the square of their number.
+_MOST_REPELLING = 6_000
 
 
 def deform_to(
@@ -60,8 +63,9 @@ def deform_to(
         The s of the norm; it has no unit.  0 is the mass norm, in which small changes are the
         nearest, and big ones make ripples.
     embedded : bool
-        Make no step after which the surface passes through itself.  It may get stuck where another
-        smoothing would not.
+        Make no step after which the surface passes through itself.  Where that does not lead to the
+        target, the way is gone again with a surface that repels itself, if it has no more than
+        6,000 faces.  That takes minutes, and comes nearer without always arriving.
     degree : int
         Of the trial functions.  From degree 2 on the exact matrix of the polyhedral surface comes
         as near to the target as ``certified_distance`` says.
@@ -206,18 +210,47 @@ def _deformed(
     gamma = np.eye(2 * start.genus, dtype=np.int64)
     if not checked_switch("keep_marking", keep_marking):
         point, gamma = _nearest(point, start)
+    charts = [chart]
+    if isinstance(chart, VertexChart) and chart.embedded and K.n_faces <= _MOST_REPELLING:
+        charts.append(chart.repelling())
+    ends = []
+    for one in charts:
+        ends.append(_gone(given, one, point, degree, tolerance, max_steps))
+        if not ends[-1][2]:
+            break
+    best = min(ends, key=lambda end: siegel_distance(end[0].matrix, point))
+    return _result(best[0], point, gamma, *best[1:])
+
+
+def _gone(
+    given: MarkedComplex,
+    chart: Chart,
+    point: Complexes,
+    degree: int,
+    tolerance: float,
+    max_steps: int,
+) -> tuple[PeriodMatrix, tuple[Step, ...], str]:
+    """The whole way, with linear functions first; the matrix at its end, the steps, the verdict."""
     x = chart.start()
-    degrees = (
-        [(1, tolerance)] if degree == 1 else [(1, max(_COARSE, tolerance)), (degree, tolerance)]
-    )
+    degrees = [(1, tolerance)]
+    if degree > 1:
+        degrees = [(1, max(_COARSE, tolerance)), (degree, tolerance)]
     steps: list[Step] = []
     for p, within in degrees:
-        compute = partial(_computed, given, p)
-        x, pm, more, verdict = GaussNewton(chart, compute, point).run(x, within, max_steps)
+        search = _search(given, chart, p, point)
+        x, pm, more, verdict = search.run(x, within, max_steps)
         steps += more
         if verdict:
             break
-    return _result(pm, point, gamma, tuple(steps), verdict)
+    return pm, tuple(steps), verdict
+
+
+def _search(given: MarkedComplex, chart: Chart, degree: int, point: Complexes) -> GaussNewton:
+    compute = partial(_computed, given, degree)
+    relaxation = None
+    if isinstance(chart, VertexChart) and chart.repulsion is not None:
+        relaxation = Relaxation(chart, compute, moduli(len(point)))
+    return GaussNewton(chart, compute, point, relaxation)
 
 
 def _followed(

@@ -22,8 +22,11 @@ converge geometrically, so that 100 digits take a degree of 200 and not a finer 
 ``quadrature``         Gauss quadrature with a proved error
 ``conforming_forms``   closed forms on the whole surface, and their energies in balls
 ``float_energies``     the same for a few digits, on arrays (``float_traces``)
+``float_matrix``       the matrix in floating point, with derivatives
 ``upper_energies``     bounds of energies in other bases; what linear forms prove
 ``siegel_point``       from the energies to the period matrix
+``limits``             seconds and bytes that it may take
+``stages``             solutions with more and more functions
 ``computation``        the steps, one after the other
 ``enclosure``          the result
 =====================  ===========================================================================

@@ -35,6 +35,7 @@ from igl_periods.arrays import Complexes, Floats, Ints
 from igl_periods.errors import ComplexError
 
 from .delaunay_moves import fan
+from .exact_arithmetic import exponent_of
 from .planes import foot_and_height
 from .triangulation import Triangulation, following
 
@@ -118,14 +119,14 @@ class Cells:
 
     def accuracy_in_bits(self) -> int:
         """To how many bits the corners of cells are known, relative to the size of the cell."""
-        worst = 0.0
+        size = np.floor(np.log2(self.scale)).astype(int).tolist()
+        worst = max(exponent_of(x.rad()) for x in (*self.turn, *self.exponent))
         for starts, ends, pair in zip(self.start, self.end, self.cell.tolist()):
             for side, cell in enumerate(pair):
                 for z in (starts[side], ends[side]):
-                    radius = float(max(z.real.rad(), z.imag.rad()))
-                    worst = max(worst, radius / float(self.scale[cell]))
-        worst = max(worst, *(float(x.rad()) for x in (*self.turn, *self.exponent)))
-        return int(-np.log2(max(worst, 1e-300)))
+                    radius = max(z.real.rad(), z.imag.rad())
+                    worst = max(worst, exponent_of(radius) - size[cell])
+        return -worst
 
     def is_star(self, i: int, side: int) -> bool:
         """Whether there is a star on a side of an interface."""

@@ -10,10 +10,8 @@ the steps before is raised by what is missing, and they run again.
 
 from __future__ import annotations
 
-import time
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from functools import partial
 from numbers import Real
 
@@ -24,8 +22,7 @@ from scipy.sparse import csr_array
 
 from igl_periods.arrays import Floats, Ints
 from igl_periods.complexes import DeltaComplex, ExactLengths, MarkedComplex
-from igl_periods.errors import ComplexError, MemoryLimitError
-from igl_periods.machine import available_memory
+from igl_periods.errors import ComplexError
 from igl_periods.periods import ToleranceWarning
 from igl_periods.proofs import orthonormal_combination
 from igl_periods.run_log import logger, stage
@@ -33,17 +30,15 @@ from igl_periods.topology import cochains_and_basis
 
 from .cells import Cells, cells_of
 from .conforming_forms import dirichlet_enclosure
-from .degrees import first_sizes, next_goal, next_sizes, node_counts
 from .delaunay_moves import improve_shapes, insert_centres, make_delaunay
 from .enclosure import PeriodEnclosure
 from .exact_lengths import checked_balls
 from .float_energies import float_dirichlet_enclosure
 from .float_traces import coefficients_in_floats
-from .interface_nodes import InterfaceNodes
-from .least_squares import least_squares
-from .refinement import Refined, precision_of, refined
+from .limits import Limits
+from .refinement import Refined, precision_of
+from .stages import STALLED, Stages
 from .surface_choice import surface_and_lengths
-from .trial_functions import trial_functions
 from .triangulation import Triangulation
 from .upper_energies import canonical_in_forms, linear_upper_energies, upper_energies
 
@@ -53,8 +48,6 @@ MOST_DIGITS = 1000
 # Bits of the working precision that shapes need not have.
 _GUARD_BITS = 48
 _MOST_BITS = 100_000
-# Digits beyond those that are wanted which series are made for, and with which a proof is tried.
-_RESERVE, _LEAST_RESERVE = 0.3, -0.2
 # Digits by which quadrature is to be more accurate than the result.
 _QUADRATURE_DIGITS = 8
 # So many digits, at most, are tried in double precision; radii of energies by which they would be
@@ -62,13 +55,9 @@ _QUADRATURE_DIGITS = 8
 _DIGITS_IN_FLOATS, _NEGLIGIBLE = 13, 0.2
 # A proof that is worse than expected is tried again, so often in all.
 _MOST_PROOFS = 3
-_STALLED = "more trial functions do not help"
 _LOG_10 = float(np.log(10.0))
 # Triangles with a circumradius above so many shortest sides are divided.
 _RATIO, _RATIO_FOR_FEW_DIGITS = 1.6, 4.0
-# Seconds grow with this power of the number of unknowns, for estimates; entries of the Cholesky
-# factor over those of the normal equations.
-_COST_EXPONENT, _FILL = 2.5, 5.0
 
 
 def enclose(
@@ -93,7 +82,7 @@ def enclose(
     digits : int
         Wanted decimal digits of all entries Π_ij, relative to √(Y_ii Y_jj).
     max_seconds : float, optional
-        Begin nothing that would probably end later than this.
+        Begin nothing that would probably end later than this, and give up what does.
     max_memory : float, optional
         Bytes that the computation may take; by default what is available.
 
@@ -127,7 +116,7 @@ def enclose(
     True
     """
     _check_options(digits, max_seconds, max_memory)
-    limits = _Limits(max_seconds, max_memory)
+    limits = Limits(max_seconds, max_memory)
     K, lengths = surface_and_lengths(surface, F)
     with stage("homology"):
         cochains, T = cochains_and_basis(K)
@@ -147,7 +136,7 @@ def enclose(
             D = linear_upper_energies(MarkedComplex(K, cochains, T), lengths)
         return PeriodEnclosure(D, marking, K, precision_of(digits))
 
-    best, reason = _best_enclosure(cells, prove, digits, limits)
+    best, reason = _best_enclosure(Stages(cells, digits, limits), prove, digits, limits)
     if best is None:
         best = prove_less()
     if best.digits < digits:
@@ -186,73 +175,34 @@ def _cut(
 
 
 def _best_enclosure(
-    cells: Cells, prove: Callable[[Refined], PeriodEnclosure], digits: int, limits: _Limits
+    stages: Stages, prove: Callable[[Refined], PeriodEnclosure], digits: int, limits: Limits
 ) -> tuple[PeriodEnclosure | None, str]:
     """Solve in stages and prove; again with a higher goal as long as digits are missing.
 
     The result is the best that was proved, None if that is nothing, and why it is not better.
     """
-    # Energies add up the squares of the jumps on all segments, about a tenth of the largest ones.
-    margin = 0.5 * float(np.log10(max(cells.n_interfaces / 10.0, 1.0)))
-    final = 0.5 * (digits + _RESERVE) + margin
-    goal = next_goal(0.0, final)
-    size = first_sizes(cells, goal)
     best: PeriodEnclosure | None = None
-    closest: Refined | None = None
-    n_proofs = 0
-    limits.check_memory(cells, size)
-    while True:
-        with stage(f"series for jumps of 1e-{goal:.1f}"):
-            solution = limits.timed(partial(_solution, cells, size, goal), size)
-        expected = solution.expected_digits
-        logger.info(
-            "jumps of 1e%.1f with %d functions, about %.1f digits",
-            solution.residual,
-            size.sum(),
-            expected,
-        )
-        stalled = closest is not None and expected <= closest.expected_digits
-        closest = solution if not stalled else closest
-        assert closest is not None
-        reason = _STALLED if stalled else ""
-        if not stalled and expected < digits + _LEAST_RESERVE:
-            goal, size = _larger(cells, solution, goal, final, 0.5 * expected + margin)
-            reason = limits.exceeded_by(cells, size)
-            if not reason:
-                continue
+    for _ in range(_MOST_PROOFS):
+        solution = stages.solve()
+        if solution is None:
+            break
         try:
-            found = prove(closest)
-            proved = _proved(found)
+            found = limits.proved(partial(prove, solution))
+            proved = _proved(found) if found is not None else 0.0
         except ComplexError as error:
             return best, f"nothing more can be proved ({error})"
-        gained = best is None or found.bound < best.bound
-        best = found if gained else best
+        if found is None:
+            return best, limits.out_of_time()
+        if best is not None and not found.bound < best.bound:
+            break
+        best = found
         if proved >= digits:
             return best, ""
-        n_proofs += 1
-        if reason or not gained or n_proofs == _MOST_PROOFS:
-            return best, reason or _STALLED
+        if stages.reason:
+            break
         logger.info("%.2f digits proved", proved)
-        final += 0.5 * (digits - proved + _RESERVE)
-        goal, size = _larger(cells, solution, goal, final, 0.5 * proved + margin)
-        reason = limits.exceeded_by(cells, size)
-        if reason:
-            return best, reason
-
-
-def _larger(
-    cells: Cells, solution: Refined, goal: float, final: float, reached: float
-) -> tuple[float, Ints]:
-    """The next goal, and the numbers of functions that it probably takes."""
-    # What was asked for in vain is not asked for again.
-    following = max(next_goal(reached, final), min(goal, final) + 0.5 * max(goal - reached, 0.0))
-    return following, next_sizes(cells, solution.sizes, solution.jumps, following)
-
-
-def _solution(cells: Cells, size: Ints, goal: float) -> Refined:
-    nodes = InterfaceNodes.of(cells, node_counts(cells, size))
-    problem = least_squares(trial_functions(nodes, size))
-    return refined(problem, goal)
+        stages.ask_for_more(proved)
+    return best, stages.reason or STALLED
 
 
 def _energies(surface: Triangulation, solution: Refined, basis: Ints, digits: int) -> flint.arb_mat:
@@ -279,7 +229,10 @@ def _energies_in_floats(
     """Energies of nearly orthonormal forms, in classes W c, and W."""
     trial = solution.problem.trial
     cells = trial.nodes.cells
-    W = orthonormal_combination(solution.approximate_energies(), csr_array(cells.jumps))
+    D = solution.approximate_energies()
+    if not np.isfinite(D).all():
+        raise ComplexError("the coefficients of the series are not finite.")
+    W = orthonormal_combination(D, csr_array(cells.jumps))
     newton = [a @ W.T for a in solution.newton]
     coefficients = coefficients_in_floats(trial, newton)
     return float_dirichlet_enclosure(surface, cells, coefficients, accuracy, W), W
@@ -293,60 +246,6 @@ def _proved(found: PeriodEnclosure) -> float:
         raise ComplexError("the energies are known too badly for a period matrix.")
     with flint.ctx.workprec(64):
         return -float(found.bound.log().mid()) / _LOG_10
-
-
-@dataclass
-class _Limits:
-    """What the computation may take, and what it has taken."""
-
-    max_seconds: float | None
-    max_memory: float | None
-    start: float = field(default_factory=time.perf_counter)
-    last: tuple[float, float] = (0.0, 1.0)
-
-    def timed(self, solve: Callable[[], Refined], size: Ints) -> Refined:
-        """Solve, and remember how long that took for so many unknowns."""
-        before = time.perf_counter()
-        solution = solve()
-        self.last = time.perf_counter() - before, float(size.sum())
-        return solution
-
-    def exceeded_by(self, cells: Cells, size: Ints) -> str:
-        """Why a solution with these numbers of functions is not to be begun; empty if it may."""
-        seconds, unknowns = self.last
-        expected = seconds * (float(size.sum()) / unknowns) ** _COST_EXPONENT
-        elapsed = time.perf_counter() - self.start
-        # The proof takes about as long as the solution.
-        if self.max_seconds is not None and elapsed + 2.0 * expected > self.max_seconds:
-            return f"the next step would take about {2.0 * expected:.3g} s more"
-        needed = stage_memory(cells, size)
-        if needed > self._room():
-            return f"the next step would take about {needed / 1e9:.3g} GB"
-        logger.info("next: degrees up to %d, about %.2g s", size.max(), expected)
-        return ""
-
-    def check_memory(self, cells: Cells, size: Ints) -> None:
-        """Raise MemoryLimitError if a solution has no room."""
-        needed = stage_memory(cells, size)
-        if needed > self._room():
-            raise MemoryLimitError(
-                f"series on {cells.n_cells:,} stars and faces take about {needed / 1e9:.3g} GB, "
-                f"and there are {self._room() / 1e9:.3g} GB. Ask for fewer digits, simplify the "
-                "mesh, or use a machine with more memory."
-            )
-
-    def _room(self) -> float:
-        available = available_memory()
-        return available if self.max_memory is None else min(available, self.max_memory)
-
-
-def stage_memory(cells: Cells, size: Ints) -> float:
-    """Bytes that the least-squares problem takes: tables, normal equations and their factor."""
-    columns = 2.0 * size[cells.cell]
-    nodes = node_counts(cells, size)
-    tables = 24.0 * float((nodes[:, None] * columns).sum())
-    normal = 16.0 * float((columns[:, 0] * columns[:, 1]).sum())
-    return tables + (1.0 + _FILL) * normal + 16.0 * float((2.0 * size**2).sum())
 
 
 def _check_options(digits: int, max_seconds: float | None, max_memory: float | None) -> None:

@@ -32,7 +32,7 @@ import flint
 
 from igl_periods.run_log import progress
 
-from .quadrature import ChordBounds, ChordRule, gauss_balls, shape
+from .quadrature import SegmentBounds, gauss_balls, shape
 from .series import PowerTables, Series, face_trace, star_traces
 from .triangulation import Triangulation, following
 
@@ -72,8 +72,11 @@ class _Energies:
         n = self.cells.n_chords
         self.traces = [series.on_segment(i, 0) for i in range(n)]
         self.corrections = _corrections(surface, series, self.traces)
-        self.bounds = ChordBounds(series)
-        self.rules = [self._rule(i, accuracy) for i in range(n)]
+        self.accuracy = accuracy
+        self.bounds = SegmentBounds(series)
+        self.rules = [
+            self.bounds.chord_rule(i, face, accuracy) for i, face in enumerate(self.traces)
+        ]
         self.left: Rows = []
         self.right: Rows = []
         self.half = ArbMat(self.k, self.k)
@@ -98,11 +101,6 @@ class _Energies:
             ]
         )
 
-    def _rule(self, i: int, accuracy: float) -> ChordRule:
-        polynomials = self.traces[i]
-        least = max(p.length() for p in polynomials) + 1
-        return self.bounds.rule(i, polynomials, least, accuracy)
-
     def _chord(self, i: int, star: ArbMat) -> None:
         k, rule = self.k, self.rules[i]
         polynomials, (alpha, beta) = self.traces[i], self.corrections[i]
@@ -123,7 +121,7 @@ class _Energies:
             slanted.append((w, [d + (1 - s - foot) * e for d, e in zip(delta, slope)]))
             sloping.append((w, slope))
         self._add_mismatch(slanted, sloping, height)
-        self.error += self.bounds.error(i, polynomials, (alpha, beta), rule)
+        self.error += self.bounds.chord_error(i, polynomials, (alpha, beta), rule)
         height, foot = shape(self.cells.start[i][0], self.cells.end[i][0])
         tilted = [a + b * foot for a, b in zip(alpha, beta)]
         self._add_mismatch([(Arb(1), tilted)], [(Arb(1), beta)], height)
@@ -133,8 +131,8 @@ class _Energies:
         k = self.k
         first, second = self.series.on_segment(i, 0), self.series.on_segment(i, 1)
         jump = [int(j) for j in self.cells.jumps[i]]
-        n = max(p.length() for p in first + second) + 1
-        n += -n % 4
+        rule = self.bounds.gap_rule(first, second, self.accuracy)
+        n = rule.n_nodes
         nodes, weights = gauss_balls(n)
         height, foot = shape(self.cells.start[i][1], self.cells.end[i][1])
         here_rows = face_trace(first, self.tables, n, 0).tolist()
@@ -150,6 +148,7 @@ class _Energies:
             slanted.append((w, [d + (1 - s - foot) * e for d, e in zip(delta, slope)]))
             sloping.append((w, slope))
         self._add_mismatch(slanted, sloping, height)
+        self.error += self.bounds.gap_error(i, first, second, rule)
         self._flush(_ROWS_AT_ONCE)
 
     def _add_mismatch(

@@ -22,7 +22,7 @@ _FEWEST = 4
 _FIRST_RADIAL = 2.2
 # Decimal digits for each unit of the radial degree: where nothing is known, at least, at most.
 _RATE, _SLOWEST, _FASTEST = 0.3, 0.04, 1.2
-_MARGIN = 0.3
+_MARGIN = 0.5
 # The radial degree at which a rate is to be believed by half.
 _SLOWER = 4.0
 # Logarithms of sizes that are about the same; and how much larger than its last coefficient a jump
@@ -57,13 +57,16 @@ def next_sizes(cells: Cells, sizes: list[Floats], jumps: Floats, goal: float) ->
     decays = [_decay(a, float(k), residual) for a, k in zip(sizes, cells.exponents)]
     tail = np.array([level - rate * (a.size - n) for a, (n, level, rate) in zip(sizes, decays)])
     # A jump is laid to the cell with the larger last coefficients, or to both.
-    blamed = np.full(cells.n_cells, -np.inf)
+    blamed, largest = np.full((2, cells.n_cells), -np.inf)
     for here, there in ((0, 1), (1, 0)):
         a, b = cells.cell[:, here], cells.cell[:, there]
         guilty = tail[a] >= tail[b] - _DOUBT
         np.maximum.at(blamed, a[guilty], jumps[guilty])
+        np.maximum.at(largest, a, jumps)
     found = []
-    for coefficients, (_, _, rate), last, jump in zip(sizes, decays, tail, blamed):
+    # Nor are coefficients believed that are much larger than all jumps of the cell.
+    believed = np.minimum(tail, largest + _MOST_BLAME)
+    for coefficients, (_, _, rate), last, jump in zip(sizes, decays, believed, blamed):
         excess = max(last + _MARGIN, min(jump, last + _MOST_BLAME)) + goal
         wanted = coefficients.size + excess / rate
         # Where hardly anything was known, do not believe in a few large or small coefficients.

@@ -32,7 +32,6 @@ from igl_periods.display import (
     lines_html,
     readable_digits,
 )
-from igl_periods.periods import LEAST_ALLOWANCE, PeriodMatrix, combined, congruence
 from igl_periods.recognition import (
     LARGEST_DEGREE,
     LEAST_LEFT_OVER,
@@ -48,6 +47,7 @@ from .exact_arithmetic import (
     from_integers,
     to_integers,
 )
+from .float_matrix import InFloatingPoint
 from .siegel_point import SiegelBall, siegel_ball
 
 SCHEMA = 1
@@ -57,7 +57,7 @@ _MOST_REDUCTIONS = 8
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class PeriodEnclosure:
+class PeriodEnclosure(InFloatingPoint):
     """A period matrix in balls, with its marking.
 
     Attributes
@@ -200,19 +200,6 @@ class PeriodEnclosure:
         with flint.ctx.workprec(self.bits):
             return recognise_matrix(self.matrix, degree=degree, left_over=left_over)
 
-    def to_period_matrix(self) -> PeriodMatrix:
-        """The same in floating point, with the allowance for rounding that this costs."""
-        n = 2 * self.genus
-        middles = np.array([float(x.mid()) for x in self.dirichlet.entries()]).reshape(n, n)
-        D, loss = congruence(np.eye(n, dtype=np.int8), middles)
-        return PeriodMatrix(
-            dirichlet=D,
-            certified=True,
-            cocycles=self.cocycles.copy(),
-            complex=self.complex,
-            rounding=combined(LEAST_ALLOWANCE, loss + _relative_radius(self.dirichlet, D)),
-        )
-
     def to_json(self) -> dict[str, Any]:
         """A document of decimal strings, each of which is a proved enclosure.
 
@@ -335,14 +322,6 @@ def _as_balls(Pi: ArrayLike | flint.acb_mat, g: int) -> flint.acb_mat:
     if isinstance(Pi, flint.acb_mat):
         return Pi
     return flint.acb_mat(g, g, [flint.acb(complex(z)) for z in np.asarray(Pi).ravel().tolist()])
-
-
-def _relative_radius(D: flint.arb_mat, midpoint: NDArray[np.float64]) -> float:
-    """How much of D, relative to it, its radii may be."""
-    if len(midpoint) == 0:
-        return 0.0
-    radius = max(float(x.rad()) for x in D.entries())
-    return float(len(midpoint) * radius / np.linalg.eigvalsh(midpoint)[0])
 
 
 def _texts(A: flint.arb_mat, digits: int) -> list[list[str]]:

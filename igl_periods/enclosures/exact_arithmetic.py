@@ -1,4 +1,4 @@
-r"""Balls as integers and as text; what is read contains what was written.
+r"""Balls as integers and as text, and their size; what is read contains what was written.
 
 A ball has a midpoint m 2^e and a radius of the same form, four integers in all.  As text it is
 ``[midpoint +/- radius]`` in decimals, rounded outwards: the text denotes a ball that contains the
@@ -11,6 +11,9 @@ import flint
 
 Arb = flint.arb
 
+# The exponent of 0.
+_LEAST_EXPONENT = -(10**9)
+
 
 def to_integers(x: Arb) -> tuple[int, int, int, int]:
     """Mantissa and exponent of the midpoint and of the radius."""
@@ -22,6 +25,12 @@ def to_integers(x: Arb) -> tuple[int, int, int, int]:
 def from_integers(mantissa: int, exponent: int, radius: int, radius_exponent: int) -> Arb:
     """A ball that contains the one that :func:`to_integers` was given, and hardly more."""
     return Arb(Arb((mantissa, exponent)), Arb((radius, radius_exponent)))
+
+
+def exponent_of(x: Arb) -> int:
+    """The least e with |midpoint| < 2^e; very small for 0."""
+    mantissa, exponent = x.mid().man_exp()
+    return int(exponent) + int(mantissa).bit_length() if mantissa else _LEAST_EXPONENT
 
 
 def matrix_to_integers(A: flint.acb_mat) -> list[list[tuple[int, ...]]]:

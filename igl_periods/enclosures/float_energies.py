@@ -102,7 +102,7 @@ class _Energies:
         self.cells, self.coefficients, self.jumps = cells, coefficients, jumps
         self.k = coefficients[0].shape[1]
         self.constants = np.array([c[0].real for c in coefficients])
-        self.bounds = _ChordBounds(cells, coefficients)
+        self.bounds = _ChordBounds(cells, coefficients, jumps)
         self.rule = self.bounds.rule(accuracy)
         self.long = LongEnds(cells)
         self.alpha, self.beta = self._corrections(surface)
@@ -280,9 +280,10 @@ def _shapes(cells: Cells, interfaces: Ints, side: int) -> tuple[Balls, Balls]:
 class _ChordBounds:
     """Bounds of the integrands on the chords, on ellipses; arrays over chords and forms."""
 
-    def __init__(self, cells: Cells, coefficients: list[Complexes]) -> None:
+    def __init__(self, cells: Cells, coefficients: list[Complexes], jumps: Floats) -> None:
         self.cells = cells
         n = cells.n_chords
+        self.steps = np.abs(jumps[:n])
         longest = max(len(c) for c in coefficients)
         self.sizes = np.zeros((cells.n_cells, longest, coefficients[0].shape[1]))
         for cell, c in enumerate(coefficients):
@@ -359,6 +360,8 @@ class _ChordBounds:
         if not (height > _LEAST_HEIGHT).all() or (reach > edge / _LEAST_HEIGHT).any():
             raise ComplexError("triangles are too flat or too thin for double precision.")
         lever = (0.5 * tau + np.abs(foot - 0.5)) * UP
+        # In the branch of the star.
+        traces = traces + self.steps
         B = (trace_slopes + slopes) * UP
         A = (traces + values + lever[:, None] * B) * UP
         return (traces + 0.5 * values) * UP, slopes * UP, A, B, height

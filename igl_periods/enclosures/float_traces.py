@@ -29,6 +29,7 @@ from igl_periods.errors import ComplexError
 from igl_periods.proofs import UNIT
 
 from .cells import Cells
+from .limits import check_time
 from .trial_functions import TrialFunctions
 
 # Factor that covers the rounding of sums of positive numbers, and of bounds of bounds.
@@ -141,6 +142,7 @@ class LongEnds:
         cells, w = self.cells, []
         with flint.ctx.workprec(STAR_BITS):
             for i, n in zip(chords.tolist(), counts.tolist()):
+                check_time()
                 star = int(cells.cell[i, 1])
                 kappa, turn = cells.exponent[star], flint.acb(0, cells.turn[i])
                 a, b = cells.start[i][1], cells.end[i][1]
@@ -192,6 +194,7 @@ def traces(points: Points, coefficients: list[Complexes], of_stars: bool) -> Tra
     order = np.argsort(points.cell, kind="stable")
     ends = np.flatnonzero(np.diff(points.cell[order])) + 1
     for rows in np.split(order, ends):
+        check_time()
         if rows.size == 0:
             continue
         c = coefficients[int(points.cell[rows[0]])].astype(np.clongdouble)

@@ -27,6 +27,7 @@ from igl_periods.arrays import Complexes, Floats
 from igl_periods.errors import NotPositiveDefiniteError
 from igl_periods.harmonic import CholeskyFactor, factor, solve
 
+from .limits import check_time
 from .trial_functions import TrialFunctions
 
 
@@ -162,6 +163,7 @@ def _gram_matrices(weighted: _Weighted) -> Iterator[Floats]:
     for alike in np.flatnonzero(cells.cell[:, 0] == cells.cell[:, 1]).tolist():
         alone.setdefault(int(cells.cell[alike, 0]), []).append(alike)
     for cell in range(cells.n_cells):
+        check_time()
         values, slopes = weighted.cell(cell)
         gram = _products(values, slopes, values, slopes)
         for i in alone.get(cell, []):
@@ -193,6 +195,7 @@ def _normal_equations(weighted: _Weighted, inverses: list[Floats]) -> csc_matrix
     first = np.cumsum(size) - size
     below: list[dict[int, Floats]] = [{} for _ in inverses]
     for i, (a, b) in enumerate(cells.cell.tolist()):
+        check_time()
         if a == b:
             continue
         block = inverses[a].T @ weighted.coupling(i) @ inverses[b]

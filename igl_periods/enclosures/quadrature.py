@@ -1,9 +1,10 @@
 r"""Gauss quadrature in balls, with a proved error.
 
-On the sides of faces the integrands are polynomials of degree 2K − 3, for which n ≥ K − 1 nodes
-are exact.  On a chord seen from its star, the integrand f continues analytically to the ellipse
-with foci at the ends of [0, 1] and half axes adding up to ρ/2, as long as that ellipse does not
-meet the vertex, a branch point of ζ^κ.  If |f| ≤ M there, then n nodes are wrong by at most
+On the sides of faces the integrands are polynomials of degree up to 2K, for which n ≥ K + 1 nodes
+are exact; fewer are enough where their high coefficients are small.  On a chord seen from its star,
+the integrand f continues analytically to the ellipse with foci at the ends of [0, 1] and half axes
+adding up to ρ/2, as long as that ellipse does not meet the vertex, a branch point of ζ^κ.  If
+|f| ≤ M there, then n nodes are wrong by at most
 
 .. math:: 2 M \Bigl(1 + \frac{1}{4n^2 - 1}\Bigr) \frac{\rho^{-2n}}{1 - \rho^{-2}},
 
@@ -16,9 +17,9 @@ to at most S = |e| (ρ + 1/ρ)/2, hence (|a| + |b| − S)/2 ≤ |ζ| ≤ (|a| + 
 .. math:: |F| \le \sum |c_k| |w|^k, \qquad
           |dF/ds| \le \frac{\kappa |e|}{|\zeta|} \sum k |c_k| |w|^k.
 
-The face's polynomial in t = 2s − 1 is bounded with |t| ≤ (ρ + 1/ρ)/2.  The real part of an analytic
-function on the segment continues to one bounded by the same number.  How many nodes and which ρ are
-good is chosen in floating point; the bound is computed in balls of 64 bits.
+A face's polynomial in t = 2s − 1 is bounded with |t| ≤ τ = (ρ + 1/ρ)/2 on any ellipse.  The real
+part of an analytic function on the segment continues to one bounded by the same number.  How many
+nodes and which ρ are good is chosen in floating point; the bound is computed in balls of 64 bits.
 """
 
 from __future__ import annotations
@@ -37,6 +38,8 @@ Arb = flint.arb
 _BOUND_BITS = 64
 _FRACTIONS = np.linspace(0.25, 0.95, 15)
 _NODE_UNIT = 4
+# τ of the ellipses that are tried on gaps.
+_GAP_ELLIPSES = np.linspace(1.1, 3.5, 13)
 
 _known: dict[tuple[int, int], tuple[list[Arb], list[Arb]]] = {}
 
@@ -53,8 +56,8 @@ def gauss_balls(n: int) -> tuple[list[Arb], list[Arb]]:
 
 
 @dataclass(frozen=True, eq=False)
-class ChordRule:
-    """How a chord is integrated.
+class Rule:
+    """How a segment is integrated.
 
     Attributes
     ----------
@@ -67,8 +70,16 @@ class ChordRule:
     ellipse: float
 
 
-class ChordBounds:
-    """Bounds of the integrands on the chords of a surface."""
+@dataclass(frozen=True, eq=False)
+class _Sizes:
+    """Bounds of u and of dF/ds of all forms on an ellipse, seen from one cell."""
+
+    values: list[Arb]
+    slopes: list[Arb]
+
+
+class SegmentBounds:
+    """Bounds of the integrands on the segments of a surface."""
 
     def __init__(self, series: Series) -> None:
         """Take absolute values of all coefficients of stars, once."""
@@ -78,97 +89,158 @@ class ChordBounds:
             self._sizes = [[[c.abs_upper() for c in form] for form in forms] for forms in stars]
         self._logs = [_logs(forms) for forms in self._sizes]
 
-    def rule(
-        self, i: int, polynomials: list[flint.acb_poly], least: int, accuracy: float
-    ) -> ChordRule:
-        """Choose nodes for an error of about e^accuracy, and no fewer than ``least``."""
+    def chord_rule(self, i: int, face: list[flint.acb_poly], accuracy: float) -> Rule:
+        """Choose nodes on a chord for an error of about e^accuracy."""
         cells = self.series.cells
         a, b = (abs(complex(z)) for z in cells.ends[i, 1])
         edge = abs(complex(cells.ends[i, 1, 1] - cells.ends[i, 1, 0]))
         star = int(cells.cell[i, 1])
         kappa, scale, c = cells.exponents[star], float(cells.scale[star]), self._logs[star]
-        p = _logs([[x.abs_upper() for x in q.coeffs()] for q in polynomials])
-        largest = (a + b) / edge
-        best = ChordRule(0, 0.0)
-        for tau in 1.0 + _FRACTIONS * (largest - 1.0):
+        p, k = _polynomial_logs(face), np.arange(c.size)
+        found = []
+        for tau in 1.0 + _FRACTIONS * ((a + b) / edge - 1.0):
             far, close = (a + b + edge * tau) / 2, (a + b - edge * tau) / 2
-            k = np.arange(c.size)
             terms = c + kappa * k * np.log(far / scale)
-            size = np.logaddexp(_log_sum(terms), _log_sum(p + np.arange(p.size) * np.log(tau)))
             slope = _log_sum(terms + np.log(np.maximum(k, 1))) + np.log(kappa * edge / close)
             # The flux may be larger than the value, and the mismatch contains both.
-            size = 2.0 * np.logaddexp(size, slope) + 2.0
-            rho = tau + np.sqrt(tau * tau - 1.0)
-            wanted = (size - accuracy) / (2.0 * np.log(rho))
-            n = max(least, 2, int(np.ceil(wanted)))
-            if best.n_nodes == 0 or n < best.n_nodes:
-                best = ChordRule(n, float(rho))
-        return ChordRule(best.n_nodes + -best.n_nodes % _NODE_UNIT, best.ellipse)
+            star_size = np.logaddexp(_log_sum(terms), slope)
+            value, slope = _face_logs(p, tau)
+            inexact = _count(np.logaddexp(star_size, np.logaddexp(value, slope)), tau, accuracy)
+            exact = max(_exact_count(face), _count(np.logaddexp(star_size, value), tau, accuracy))
+            found.append((min(exact, inexact), _rho(tau)))
+        return _fewest(found)
 
-    def error(
+    def gap_rule(
+        self, first: list[flint.acb_poly], second: list[flint.acb_poly], accuracy: float
+    ) -> Rule:
+        """Choose nodes on a gap for an error of about e^accuracy."""
+        exact = _exact_count(first + second)
+        logs = [_polynomial_logs(side) for side in (first, second)]
+        found = [(exact, _rho(2.0))]
+        for tau in _GAP_ELLIPSES:
+            parts = [size for p in logs for size in _face_logs(p, tau)]
+            size = _log_sum(np.array(parts))
+            found.append((_count(size, tau, accuracy), _rho(tau)))
+        return _fewest(found)
+
+    def chord_error(
         self,
         i: int,
-        polynomials: list[flint.acb_poly],
+        face: list[flint.acb_poly],
         correction: tuple[list[Arb], list[Arb]],
-        rule: ChordRule,
+        rule: Rule,
     ) -> flint.arb_mat:
-        """Bounds of the errors of the integrals on the star's side of a chord; (k, k)."""
+        """Bounds of the errors of the integrals on both sides of a chord; (k, k)."""
         with flint.ctx.workprec(_BOUND_BITS):
-            return self._error(i, polynomials, correction, rule)
+            tau = _tau(rule)
+            own, other = _face_sizes(face, tau), self._star_sizes(i, tau)
+            corrections = [abs(a) + (1 + tau) / 2 * abs(b) for a, b in zip(*correction)]
+            master = _Sizes(
+                [g + c for g, c in zip(own.values, corrections)],
+                [g + abs(b) for g, b in zip(own.slopes, correction[1])],
+            )
+            error = self._other_side(i, master, other, tau)
+            if rule.n_nodes < _exact_count(face):
+                half = [x / 2 + c for x, c in zip(own.values, corrections)]
+                error += _both_ways(half, own.slopes)
+            return _quadrature_factor(rule) * error
 
-    def _error(
-        self,
-        i: int,
-        polynomials: list[flint.acb_poly],
-        correction: tuple[list[Arb], list[Arb]],
-        rule: ChordRule,
+    def gap_error(
+        self, i: int, first: list[flint.acb_poly], second: list[flint.acb_poly], rule: Rule
     ) -> flint.arb_mat:
+        """Bounds of the errors of the integrals on both sides of a gap; (k, k)."""
+        k = len(first)
+        if rule.n_nodes >= _exact_count(first + second):
+            return flint.arb_mat(k, k)
+        with flint.ctx.workprec(_BOUND_BITS):
+            tau = _tau(rule)
+            own, other = _face_sizes(first, tau), _face_sizes(second, tau)
+            error = self._other_side(i, own, other, tau)
+            error += _both_ways([x / 2 for x in own.values], own.slopes)
+            return _quadrature_factor(rule) * error
+
+    def _star_sizes(self, i: int, tau: Arb) -> _Sizes:
         cells = self.series.cells
         star = int(cells.cell[i, 1])
         za, zb = cells.start[i][1], cells.end[i][1]
         edge, reach = abs(zb - za), abs(za) + abs(zb)
-        rho = Arb(rule.ellipse)
-        tau = (rho + 1 / rho) / 2
         far, close = (reach + edge * tau) / 2, (reach - edge * tau) / 2
         if not close > 0:
             raise AssertionError("the ellipse was chosen so that it does not meet the vertex")
         kappa = cells.exponent[star]
         w = ((far / Arb(float(cells.scale[star]))).log() * kappa).exp().upper()
         powers = _ascending(w, max(len(form) for form in self._sizes[star]))
-        slope_factor = kappa * edge / close
         values, slopes = _sums(self._sizes[star], powers)
-        slopes = [slope_factor * x for x in slopes]
-        face = [[c.abs_upper() for c in p.coeffs()] for p in polynomials]
-        powers = _ascending(tau.upper(), max(len(c) for c in face) or 1)
-        traces, trace_slopes = _sums(face, powers)
-        # d/ds = 2 d/dt; the correction is α + β s with |s| ≤ (1 + τ)/2.
-        alpha, beta = ([abs(x) for x in part] for part in correction)
-        reach_s = (1 + tau) / 2
-        masters = [g + a + reach_s * b for g, a, b in zip(traces, alpha, beta)]
-        master_slopes = [2 * g / tau + b for g, b in zip(trace_slopes, beta)]
-        height, foot = shape(za, zb)
-        delta = [g + u for g, u in zip(masters, values)]
-        delta_slope = [g + u for g, u in zip(master_slopes, slopes)]
+        return _Sizes(values, [kappa * edge / close * x for x in slopes])
+
+    def _other_side(self, i: int, master: _Sizes, cell: _Sizes, tau: Arb) -> flint.arb_mat:
+        """Bounds of the integrand on the side whose function gives way to the master's."""
+        cells = self.series.cells
+        jumps = [abs(int(j)) for j in cells.jumps[i]]
+        masters = [g + j for g, j in zip(master.values, jumps)]
+        slopes = [g + u for g, u in zip(master.slopes, cell.slopes)]
+        height, foot = shape(cells.start[i][1], cells.end[i][1])
         lever = tau / 2 + abs(foot - Arb(0.5))
-        A = [d + lever * e for d, e in zip(delta, delta_slope)]
-        H = [g + u / 2 for g, u in zip(masters, values)]
-        n = rule.n_nodes
-        factor = 2 * (1 + Arb(1) / (4 * n * n - 1)) * rho ** (-2 * n) / (1 - rho**-2)
-        k = len(H)
-        return flint.arb_mat(
-            [
-                [
-                    factor
-                    * (
-                        H[p] * slopes[q]
-                        + H[q] * slopes[p]
-                        + (A[p] * A[q] / height + height * delta_slope[p] * delta_slope[q]) / 2
-                    )
-                    for q in range(k)
-                ]
-                for p in range(k)
-            ]
-        )
+        A = [g + u + lever * e for g, u, e in zip(masters, cell.values, slopes)]
+        flux = _both_ways([g + u / 2 for g, u in zip(masters, cell.values)], cell.slopes)
+        return flux + _outer(A, A) / (2 * height) + _outer(slopes, slopes) * (height / 2)
+
+
+def _quadrature_factor(rule: Rule) -> Arb:
+    n, rho = rule.n_nodes, Arb(rule.ellipse)
+    return 2 * (1 + Arb(1) / (4 * n * n - 1)) * rho ** (-2 * n) / (1 - rho**-2)
+
+
+def _tau(rule: Rule) -> Arb:
+    rho = Arb(rule.ellipse)
+    return (rho + 1 / rho) / 2
+
+
+def _rho(tau: float) -> float:
+    return float(tau + np.sqrt(tau * tau - 1.0))
+
+
+def _exact_count(polynomials: list[flint.acb_poly]) -> int:
+    """Nodes with which products of two such polynomials, or their slopes, are exact."""
+    return max(p.length() for p in polynomials) + 1
+
+
+def _count(size: float, tau: float, accuracy: float) -> int:
+    """Nodes for an error of e^accuracy of a product of two functions of size e^size."""
+    return max(2, int(np.ceil((2.0 * size + 2.0 - accuracy) / (2.0 * np.log(_rho(tau))))))
+
+
+def _fewest(found: list[tuple[int, float]]) -> Rule:
+    n, ellipse = min(found, key=lambda rule: rule[0])
+    return Rule(n + -n % _NODE_UNIT, ellipse)
+
+
+def _face_sizes(polynomials: list[flint.acb_poly], tau: Arb) -> _Sizes:
+    sizes = [[c.abs_upper() for c in p.coeffs()] for p in polynomials]
+    powers = _ascending(tau.upper(), max(len(c) for c in sizes) or 1)
+    values, slopes = _sums(sizes, powers)
+    # d/ds = 2 d/dt.
+    return _Sizes(values, [2 * x / tau for x in slopes])
+
+
+def _polynomial_logs(polynomials: list[flint.acb_poly]) -> Floats:
+    return _logs([[x.abs_upper() for x in q.coeffs()] for q in polynomials])
+
+
+def _face_logs(p: Floats, tau: float) -> tuple[float, float]:
+    """Logarithms of the sizes of a value and of a slope, from those of the coefficients."""
+    k = np.arange(p.size)
+    terms = p + k * np.log(tau)
+    return _log_sum(terms), _log_sum(terms + np.log(np.maximum(k, 1))) + float(np.log(2.0 / tau))
+
+
+def _outer(x: list[Arb], y: list[Arb]) -> flint.arb_mat:
+    return flint.arb_mat([[a * b for b in y] for a in x])
+
+
+def _both_ways(x: list[Arb], y: list[Arb]) -> flint.arb_mat:
+    product = _outer(x, y)
+    return product + product.transpose()
 
 
 def shape(a: flint.acb, b: flint.acb) -> tuple[Arb, Arb]:

@@ -14,25 +14,32 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import zip_longest
 
 import flint
 import numpy as np
 
 from igl_periods.arrays import Complexes, Floats
+from igl_periods.errors import ComplexError
 
+from .exact_arithmetic import exponent_of
 from .interface_nodes import InterfaceNodes, gauss_nodes
 from .least_squares import LeastSquares
-from .series import PowerTables, Series, excess_bits, exponent_of, face_trace, star_traces
+from .limits import check_time
+from .series import PowerTables, Series, excess_bits, face_trace, star_traces
 from .trial_functions import TrialFunctions
 
 Acb = flint.acb
 
 # A step that reduces the residual by less has met what the trial functions can do; by less than
-# the second number it may have, and is believed to in the first step, and where the goal is near.
-_LEAST_GAIN, _LIMITED, _NEARLY = 1e-4, 1e-9, 0.8
-_CORRECTIONS = 1
-# Digits by which a step reduces it otherwise.
-_GAIN = 14.0
+# the second number in the first step, by less than the third one where the goal is near.
+_LEAST_GAIN, _LIMITED_AT_FIRST, _LIMITED, _NEARLY = 1e-2, 1e-9, 1e-12, 0.8
+# Solutions are corrected, so often at most, as long as that helps by such a factor.
+_CORRECTIONS, _HELP = 3, 0.2
+# Digits by which a step reduces it otherwise, and those from which another solution is a start.
+_GAIN, _GOOD_START = 14.0, 10.0
+# Bits of residuals beyond those that a step gains.
+_GUARD_BITS = 40
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,7 +100,7 @@ class Refined:
         return [np.abs(a).max(axis=1, initial=0.0) for a in self.newton]
 
 
-def refined(problem: LeastSquares, goal: float) -> Refined:
+def refined(problem: LeastSquares, goal: float, before: Refined | None = None) -> Refined:
     """Solve until the residual is 10^−goal, or does not fall any more.
 
     Parameters
@@ -101,16 +108,24 @@ def refined(problem: LeastSquares, goal: float) -> Refined:
     problem : LeastSquares
     goal : float
         Wanted decimal digits of the jumps.
+    before : Refined, optional
+        A solution whose trial functions are the first ones of ``problem``; if it is a good one, its
+        jumps are where this one starts.
     """
     nodes = problem.trial.nodes
     expansion = Expansion(problem.trial, precision_of(goal))
-    values = _jump_rows(nodes)
-    slopes = np.zeros(values.shape, dtype=np.complex128)
     tables = PowerTables(lambda n: [flint.arb(2.0 * s - 1.0) for s in gauss_nodes(n)[0]])
-    total = [np.zeros((K, values.shape[1]), np.complex128) for K in problem.trial.size]
+    total = [np.zeros((K, nodes.cells.jumps.shape[1]), np.complex128) for K in problem.trial.size]
     series: Series | None = None
     best: Refined | None = None
-    exponent = 0
+    if before is not None and before.residual < -_GOOD_START:
+        series = before.series
+        for a, b in zip(total, before.newton):
+            a[: len(b)] = b
+        exponent, values, slopes = _residual(nodes, series, tables, before.residual)
+    else:
+        exponent, values = 0, _jump_rows(nodes)
+        slopes = np.zeros(values.shape, dtype=np.complex128)
     while True:
         update, left = _corrected_solution(problem, values, slopes)
         total = [a + 2.0**exponent * b for a, b in zip(total, update)]
@@ -118,15 +133,16 @@ def refined(problem: LeastSquares, goal: float) -> Refined:
         level, gain = float(jumps.max()), float(left.max())
         # As long as double precision is what limits a step, the next one gains as much.  What it
         # leaves otherwise is what the trial functions cannot do.
-        done = gain > _LIMITED and (series is None or level < -_NEARLY * goal)
-        if best is not None and level >= best.residual:
+        near = level < -_NEARLY * goal
+        done = gain > (_LIMITED_AT_FIRST if series is None else _LIMITED if near else np.inf)
+        # What is no number ends it as well.
+        if best is not None and not level < best.residual:
             return best
         best = Refined(problem, total, jumps, expansion, series, (update, exponent))
-        if level <= -goal or gain > _LEAST_GAIN or done:
+        if not (level > -goal and gain <= _LEAST_GAIN) or done:
             return best
         series = expansion.added(series, update, exponent)
-        with flint.ctx.workprec(precision_of(-level + _GAIN) + series.excess_bits):
-            exponent, values, slopes = _residual(nodes, series, tables)
+        exponent, values, slopes = _residual(nodes, series, tables, level)
 
 
 def precision_of(goal: float) -> int:
@@ -150,15 +166,26 @@ def _corrected_solution(
     Of the jumps the largest on each interface are given.
     """
     update = problem.solve(values, slopes)
+    left = _left(problem, update, values, slopes)
+    size = _largest(problem, left)
     for _ in range(_CORRECTIONS):
-        update = [
-            a + b for a, b in zip(update, problem.solve(*_left(problem, update, values, slopes)))
-        ]
+        corrected = [a + b for a, b in zip(update, problem.solve(*left))]
+        left = _left(problem, corrected, values, slopes)
+        smaller = _largest(problem, left)
+        before, after = size.max(), smaller.max()
+        if after < before:
+            update, size = corrected, smaller
+        if not after < _HELP * before:
+            break
+    return update, size
+
+
+def _largest(problem: LeastSquares, jumps: tuple[Floats, Complexes]) -> Floats:
     nodes = problem.trial.nodes
-    left = np.full(nodes.cells.n_interfaces, 1e-300)
-    for jumps in _left(problem, update, values, slopes):
-        np.maximum.at(left, nodes.side_of_row // 2, np.abs(jumps).max(axis=1))
-    return update, left
+    largest = np.full(nodes.cells.n_interfaces, 1e-300)
+    for part in jumps:
+        np.maximum.at(largest, nodes.side_of_row // 2, np.abs(part).max(axis=1))
+    return largest
 
 
 def _left(
@@ -172,6 +199,15 @@ def _left(
 
 
 def _residual(
+    nodes: InterfaceNodes, series: Series, tables: PowerTables, level: float
+) -> tuple[int, Floats, Complexes]:
+    """The jumps that are left, about 10^level, with the digits that a step gains."""
+    bits = int(3.33 * (_GAIN - level)) + _GUARD_BITS
+    with flint.ctx.workprec(bits + series.excess_bits):
+        return _jumps(nodes, series, tables)
+
+
+def _jumps(
     nodes: InterfaceNodes, series: Series, tables: PowerTables
 ) -> tuple[int, Floats, Complexes]:
     """The jumps that are left, divided by 2^exponent; rows as ``LeastSquares.solve`` wants them."""
@@ -231,10 +267,19 @@ class Expansion:
             self._bits.append(bits + size)
 
     def added(self, series: Series | None, update: list[Complexes], exponent: int) -> Series:
-        """Add coefficients of Newton bases, times 2^exponent, to power series."""
+        """Add coefficients of Newton bases, times 2^exponent, to power series.
+
+        Raises
+        ------
+        ComplexError
+            If they are no numbers.
+        """
+        if not all(np.isfinite(a).all() for a in update):
+            raise ComplexError("the coefficients of the series are not finite.")
         scale = flint.arb(2) ** exponent
         found = []
         for cell, a in enumerate(update):
+            check_time()
             forms = [self._expanded(cell, column) for column in a.T.tolist()]
             # Coefficients may be large and cancel each other; errors are to be small as they are.
             with flint.ctx.workprec(self.bits + max(0, exponent + excess_bits(forms))):
@@ -243,7 +288,10 @@ class Expansion:
                     continue
                 before = series.coefficients[cell]
                 found.append(
-                    [[(b + c * scale).mid() for b, c in zip(x, y)] for x, y in zip(before, forms)]
+                    [
+                        [(b + c * scale).mid() for b, c in zip_longest(x, y, fillvalue=Acb(0))]
+                        for x, y in zip(before, forms)
+                    ]
                 )
         return Series(self.trial.nodes.cells, found)
 

@@ -25,6 +25,8 @@ from functools import cached_property
 import flint
 
 from .cells import Cells
+from .exact_arithmetic import exponent_of
+from .limits import check_time
 
 Arb = flint.arb
 Acb = flint.acb
@@ -86,12 +88,6 @@ def excess_bits(forms: list[list[Acb]]) -> int:
     return max((exponent_of(x) for x in parts), default=0)
 
 
-def exponent_of(x: Arb) -> int:
-    """The least e with |midpoint| < 2^e; very small for 0."""
-    mantissa, exponent = x.mid().man_exp()
-    return int(exponent) + int(mantissa).bit_length() if mantissa else -(10**9)
-
-
 class PowerTables:
     """Powers of nodes t in [−1, 1], made once for each number of nodes and precision."""
 
@@ -114,6 +110,7 @@ class PowerTables:
 
 def face_trace(polynomials: list[flint.acb_poly], powers: PowerTables, n: int, side: int) -> ArbMat:
     """The traces of a face on a side, in the nodes' order along the first side; (n, 3 k)."""
+    check_time()
     # s runs against t on the second side.
     slopes = [(2 if side == 0 else -2) * p.derivative() for p in polynomials]
     length = max(1, *(p.length() for p in polynomials))
@@ -219,6 +216,7 @@ def _products(
     rows: list[list[Arb]] = []
     portion = max(1, _ENTRIES_AT_ONCE // (2 * length))
     for first in range(0, len(rays.omega), portion):
+        check_time()
         table = _table(rays.omega[first : first + portion], length)
         rows += (table * right).tolist()
     starts = range(0, len(columns), width)

@@ -29,6 +29,8 @@ from igl_periods.errors import ComplexError
 from igl_periods.siegel import cholesky
 from igl_periods.symplectic import standard_form
 
+from .exact_arithmetic import exponent_of
+
 Arb = flint.arb
 ArbMat = flint.arb_mat
 
@@ -143,7 +145,7 @@ def _largest_excess(M: ArbMat) -> Arb:
         raise ComplexError("the energies are known too badly for a period matrix.")
     if outer == 0:
         return Arb(0)
-    unit = Arb(2) ** _exponent(outer)
+    unit = Arb(2) ** exponent_of(outer)
     scaled = E / unit
     midpoint = np.array([float(x.mid()) for x in scaled.entries()]).reshape(n, n)
     radius = max(float(x.rad()) for x in scaled.entries())
@@ -153,11 +155,6 @@ def _largest_excess(M: ArbMat) -> Arb:
         if cholesky(eta * identity - scaled) is not None:
             return (eta * unit).upper()
     return (outer * Arb(1.0 + 1e-9)).upper()
-
-
-def _exponent(x: Arb) -> int:
-    mantissa, exponent = x.mid().man_exp()
-    return int(exponent) + abs(int(mantissa)).bit_length()
 
 
 def _symmetric(A: ArbMat) -> ArbMat:

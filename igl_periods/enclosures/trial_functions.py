@@ -8,8 +8,9 @@ w_k the node of the cell's boundary at which |φ_k| is largest and σ_k such tha
 is 1.  These are Leja points: they fill the boundary as a charge in equilibrium would, so that
 |φ_k| stays of order 1 on all of it, where the monomials w^k are hopelessly small on most of it.
 Points and factors are doubles, and exact: what is a polynomial here is the same one in any
-precision.  Outside, |φ_k| grows like exp(k γ), γ Green's function of the complement of the cell;
-so a_k falls like exp(−k γ) at the nearest singularity of u, a vertex.
+precision.  A larger basis goes on where a smaller one ended, on other nodes of the same boundary,
+so that coefficients keep their meaning.  Outside, |φ_k| grows like exp(k γ), γ Green's function of
+the complement of the cell; so a_k falls like exp(−k γ) at the nearest singularity of u, a vertex.
 """
 
 from __future__ import annotations
@@ -52,8 +53,13 @@ class TrialFunctions:
     slopes: list[Complexes]
 
 
-def trial_functions(nodes: InterfaceNodes, size: Ints) -> TrialFunctions:
-    """Newton bases at Leja points of the nodes, ``size`` functions for each cell."""
+def trial_functions(
+    nodes: InterfaceNodes, size: Ints, before: TrialFunctions | None = None
+) -> TrialFunctions:
+    """Newton bases at Leja points of the nodes, ``size`` functions for each cell.
+
+    They begin with the functions of ``before``, no more than ``size``, where that is given.
+    """
     n_cells = nodes.cells.n_cells
     found = TrialFunctions(
         nodes,
@@ -65,11 +71,11 @@ def trial_functions(nodes: InterfaceNodes, size: Ints) -> TrialFunctions:
         alike = np.flatnonzero(size == K)
         portion = np.cumsum(n_rows[alike]) // _ROWS_AT_ONCE
         for p in np.unique(portion):
-            _fill(found, alike[portion == p], int(K))
+            _fill(found, alike[portion == p], int(K), before)
     return found
 
 
-def _fill(found: TrialFunctions, chosen: Ints, K: int) -> None:
+def _fill(found: TrialFunctions, chosen: Ints, K: int, before: TrialFunctions | None) -> None:
     """The bases of some cells, K functions each, step by step for all of them at once."""
     nodes = found.nodes
     n_rows = np.diff(nodes.start)[chosen]
@@ -82,14 +88,16 @@ def _fill(found: TrialFunctions, chosen: Ints, K: int) -> None:
     points = np.empty((chosen.size, K), dtype=np.complex128)
     factors = np.empty((chosen.size, K))
     values[0], slopes[0] = 1.0, 0.0
+    known = _known(chosen, before, points, factors)
     size = np.abs(w)
     for k in range(K):
+        new = known <= k
         largest = _row_of_largest(size, first, owner)
-        points[:, k] = w[largest]
+        points[new, k] = w[largest[new]]
         step = w - points[owner, k]
         product = values[k] * step
         size = np.abs(product)
-        factors[:, k] = 1.0 / np.maximum.reduceat(size, first)
+        factors[new, k] = 1.0 / np.maximum.reduceat(size, first)[new]
         if k + 1 == K:
             break
         factor = factors[owner, k]
@@ -101,6 +109,16 @@ def _fill(found: TrialFunctions, chosen: Ints, K: int) -> None:
         found.points[cell], found.factors[cell] = points[i], factors[i]
         found.values[cell] = np.ascontiguousarray(values[:, ends[i]].T)
         found.slopes[cell] = np.ascontiguousarray(slopes[:, ends[i]].T)
+
+
+def _known(chosen: Ints, before: TrialFunctions | None, points: Complexes, factors: Floats) -> Ints:
+    """Copy points and factors that there were, and say how many of each cell."""
+    known = np.zeros(chosen.size, dtype=np.int64)
+    if before is not None:
+        known = before.size[chosen]
+        for i, (cell, n) in enumerate(zip(chosen.tolist(), known.tolist())):
+            points[i, :n], factors[i, :n] = before.points[cell], before.factors[cell]
+    return known
 
 
 def _row_of_largest(size: Floats, first: Ints, owner: Ints) -> Ints:

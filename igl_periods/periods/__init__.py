@@ -22,6 +22,7 @@ triangles have the stored lengths.
 ``differentiable``    … as methods
 ``matrix``            the period matrix, its estimates and its bound
 ``certificate``       D and its allowance → the certified matrix
+``keeping``           the same with forms that are kept for derivatives
 ``proof``             the same with energies in balls: the bound is proved
 ``adaptive_degree``   the degree that meets a tolerance
 ``computation``       the steps, one after the other

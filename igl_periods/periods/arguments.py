@@ -75,12 +75,12 @@ def checked_limits(
     return limits[0], limits[1]
 
 
-def check_kept_forms(weights: str, tolerance: float | None, rigorous: bool) -> None:
-    """Refuse options with which no forms are kept."""
-    if weights == "extrinsic" or tolerance is not None or rigorous:
+def check_kept_forms(weights: str) -> None:
+    """Refuse weights that have no derivative by lengths."""
+    if weights == "extrinsic":
         raise ValueError(
-            "keep_forms=True goes with intrinsic weights, a degree that is given, and no proof: "
-            "compute once with the tolerance, or the proof, and again for the derivatives."
+            "keep_forms=True goes with intrinsic weights: extrinsic ones are no function of the "
+            "lengths, by which derivatives are taken."
         )
 
 

@@ -10,6 +10,9 @@ compared entry by entry.
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import partial
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -29,11 +32,11 @@ from igl_periods.topology import mark
 
 from .adaptive_degree import period_matrix_within
 from .arguments import check_kept_forms, checked_limits, checked_options, edge_weights
-from .certificate import Method, WithAllowance, certified_period_matrix
+from .certificate import Method, WithAllowance
+from .keeping import Keeping
 from .matrix import PeriodMatrix
 from .memory_estimates import check_high_order, room_for_forms
 from .proof import Proved
-from .solved_forms import solve_forms
 
 
 def period_matrix(
@@ -82,8 +85,8 @@ def period_matrix(
         at nearly the speed of floating point.  The surface is the one whose triangles have the side
         lengths that the complex stores, exactly.
     keep_forms : bool
-        Keep the forms in the result, so that derivatives cost no new solution.  Not with a
-        tolerance, a proof or extrinsic weights.
+        Keep the forms in the result, so that derivatives cost no new solution.  With a proof they
+        are computed for themselves, as it keeps none.  Not with extrinsic weights.
 
     Returns
     -------
@@ -128,20 +131,25 @@ def period_matrix(
     delaunay = checked_switch("delaunay", delaunay)
     rigorous = checked_switch("rigorous", rigorous)
     if checked_switch("keep_forms", keep_forms):
-        check_kept_forms(weights, tolerance, rigorous)
+        check_kept_forms(weights)
     K = as_complex(surface, F)
+    if rigorous and keep_forms:
+        compute = partial(
+            period_matrix,
+            K,
+            delaunay=delaunay,
+            degree=degree,
+            tolerance=tolerance,
+            max_unknowns=max_unknowns,
+            max_memory=max_memory,
+        )
+        return replace(compute(rigorous=True), forms=compute(keep_forms=True).forms)
     room = room_for_forms(K, max_memory)
     if weights == "extrinsic":
         return _uncertified(K, extrinsic_weights(K))
     with stage("homology"):
         given = mark(K)
-    if keep_forms:
-        if degree > 1:
-            separated = given.after(separate_cones).complex
-            check_high_order(separated, degree, given.rank, max_memory)
-        kept, raw, allowance = solve_forms(given, delaunay=delaunay, degree=degree)
-        return certified_period_matrix(given, raw, allowance, kept)
-    method = _method(given, rigorous)
+    method = _method(given, rigorous, keep_forms)
     if tolerance is not None:
         where = method.triangulation(delaunay)
         return period_matrix_within(where, method, tolerance, max_unknowns, max_memory)
@@ -198,9 +206,11 @@ def period_matrix_from_weights(rho: ArrayLike, twin: ArrayLike) -> PeriodMatrix:
     return _uncertified(K, edge_weights(K, rho))
 
 
-def _method(given: MarkedComplex, rigorous: bool) -> Method:
-    """How energies are computed, in floating point or in balls."""
-    return Proved(given) if rigorous else WithAllowance(given)
+def _method(given: MarkedComplex, rigorous: bool, keep_forms: bool) -> Method:
+    """How energies are computed: in floating point, also with forms that are kept, or in balls."""
+    if rigorous:
+        return Proved(given)
+    return Keeping(given) if keep_forms else WithAllowance(given)
 
 
 def _uncertified(K: DeltaComplex, rho: Floats) -> PeriodMatrix:

@@ -47,7 +47,7 @@ Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 3.
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Protocol
 
@@ -274,7 +274,7 @@ class PeriodMatrix(Differentiable):
                 "extreme for double precision: no digits of the energies would be left. "
                 "siegel_transform(gamma, pm) gives the matrix alone, without a bound."
             )
-        return changed
+        return changed if self.forms is None else replace(changed, forms=self.forms.in_basis(U))
 
     def _approximately_in(self, U: Ints) -> PeriodMatrix | None:
         """The same in another basis of forms, or None where rounding would leave no digits."""
@@ -286,8 +286,7 @@ class PeriodMatrix(Differentiable):
             return None
         cocycles = csr_array(csr_array(U) @ self.cocycles)
         rounding = combined(self.rounding, loss)
-        forms = None if self.forms is None else self.forms.in_basis(U)
-        return PeriodMatrix(D, self.certified, cocycles, self.complex, rounding, forms=forms)
+        return PeriodMatrix(D, self.certified, cocycles, self.complex, rounding)
 
     def _proved_in(self, U: Ints) -> PeriodMatrix | None:
         """The same, with a proof for the new matrix; the balls themselves lose nothing."""

@@ -38,7 +38,7 @@ def cost(name, V, F, repeats):
     back, _ = seconds(lambda: kept.gradient(W), repeats)
     forward, _ = seconds(lambda: kept.derivative(vertices=V), repeats)
     print(
-        f"{name}: {len(V):,} vertices, genus {pm.genus}, {len(kept.forms.rounds)} rounds of flips\n"
+        f"{name}: {len(V):,} vertices, genus {pm.genus}, {len(kept.forms.moves)} rounds of flips\n"
         f"  matrix {plain:.2f} s, with forms kept {keeping:.2f} s\n"
         f"  gradient {back:.2f} s ({back / plain:.2f} of the matrix), "
         f"one direction {forward:.2f} s ({forward / plain:.2f})"

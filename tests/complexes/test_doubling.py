@@ -1,5 +1,10 @@
 """The double: the involution, what is lifted, genus and labels."""
 
+import pickle
+from dataclasses import replace
+from fractions import Fraction
+
+import flint
 import numpy as np
 import pytest
 from scipy.sparse import csr_array
@@ -8,6 +13,7 @@ from support.random_surfaces import noisy_torus, random_gluing, random_lengths
 from support.surfaces_with_holes import annulus_pair, tau_inside_certificate
 
 import igl_periods as ip
+from igl_periods.complexes import by_kind, root_of
 from igl_periods.complexes.delaunay import intrinsic_delaunay
 from igl_periods.complexes.doubling import double, involution, lift
 from igl_periods.complexes.surface_checks import check_surface
@@ -125,3 +131,24 @@ def test_what_is_no_double_is_refused():
             involution(K)
     with pytest.raises(ip.ComplexError, match="of 7 faces, is not a double"):
         involution(ip.DeltaComplex.from_lengths(np.ones((7, 3)), np.arange(21).reshape(7, 3)))
+
+
+def test_the_double_has_the_exact_lengths_of_what_lies_below():
+    # A square of two triangles; its diagonal is √2, which no double is.
+    K = ip.DeltaComplex.from_lengths([[2**0.5, 1, 1]] * 2, [[0, 1, 2], [3, 2, 1]])
+    kind = np.array([[1, 0, 0]] * 2)
+    K = replace(
+        K, exact_lengths=by_kind(K.edge, kind, (root_of(Fraction(1)), root_of(Fraction(2))))
+    )
+    L = double(K)
+    balls = L.exact_lengths(200)
+    assert len(balls) == L.n_edges
+    stored = np.empty(L.n_edges)
+    stored[L.edge] = L.lengths
+    assert np.allclose([float(x.mid()) for x in balls], stored, rtol=1e-15)
+    root = [x for x in balls if x > 1.2]
+    with flint.ctx.workprec(200):
+        assert all((x * x).contains(2) for x in root)
+    assert (len(root), len(balls)) == (2, 6)
+    assert pickle.loads(pickle.dumps(L)).exact_lengths(80)[0].overlaps(balls[0])
+    assert double(random_surface(0)).exact_lengths is None

@@ -2,13 +2,16 @@
 
 import numpy as np
 import pytest
+from scipy.sparse import csr_array
 from support.random_surfaces import noisy_torus
 
 import igl_periods as ip
 from igl_periods.complexes import (
+    Barycentres,
     delaunay_flips,
     edge_lengths,
     flip_derivatives,
+    insert_barycentres,
     pull_back,
     push_forward,
     with_edge_lengths,
@@ -49,8 +52,32 @@ def test_backward_is_the_transpose_of_forward(flipped):
     rng = np.random.default_rng(1)
     dl, g = rng.normal(size=(2, 3, K.n_edges))
     steps = flip_derivatives(K, rounds)
-    there, back = np.sum(push_forward(steps, dl) * g), np.sum(pull_back(steps, g) * dl)
+    there, back = np.sum(push_forward(steps, dl) * g), np.sum(pull_back(steps, g, K.n_edges) * dl)
     assert there == pytest.approx(back, rel=1e-12)
+
+
+def test_barycentres_between_flips(flipped):
+    """Homogeneous of degree 1, transposes of each other, and limits of differences."""
+    K, L, rounds = flipped
+    faces, none = np.array([0, 3, 17]), csr_array((0, K.n_edges), dtype=np.int64)
+    finer, _ = insert_barycentres(L, none, faces)
+    moves = [*rounds, Barycentres.of(L, faces), *delaunay_flips(finer)[1]]
+    steps, lengths = flip_derivatives(K, moves), edge_lengths(K)
+    end = edge_lengths(delaunay_flips(finer)[0])
+    assert np.allclose(push_forward(steps, lengths), end, rtol=1e-9)
+    rng = np.random.default_rng(2)
+    dl, g = rng.normal(size=(3, K.n_edges)), rng.normal(size=(3, K.n_edges + 9))
+    there, back = np.sum(push_forward(steps, dl) * g), np.sum(pull_back(steps, g, K.n_edges) * dl)
+    assert there == pytest.approx(back, rel=1e-11)
+
+    def divided(t):
+        moved, _ = delaunay_flips(with_edge_lengths(K, lengths + t * dl[0]))
+        return edge_lengths(insert_barycentres(moved, none, faces)[0])
+
+    h = 1e-7
+    difference = (divided(h) - divided(-h)) / (2 * h)
+    found = push_forward(flip_derivatives(K, moves[: len(rounds) + 1]), dl[0])
+    assert np.allclose(found, difference, rtol=0, atol=1e-6 * abs(dl).max())
 
 
 def test_derivatives_pass_through_when_nothing_is_flipped():

@@ -88,14 +88,6 @@ def test_bad_solutions_stay_enclosed(radial, noise):
     check_bad_solution("omega_2", radial, noise, radial)
 
 
-@pytest.mark.slow
-def test_a_thousand_bad_solutions_stay_enclosed():
-    rng = np.random.default_rng(0)
-    for case in range(1000):
-        name = ("omega_1", "omega_2", "omega_3", "bolza")[case % 4]
-        check_bad_solution(name, int(rng.integers(1, 17)), 10.0 ** rng.uniform(-14, 2), case)
-
-
 def test_energies_are_those_of_linear_functions_where_these_are_harmonic():
     # On a flat torus the harmonic forms are linear, and two coefficients a cell are enough.
     from igl_periods.surfaces import flat_torus

@@ -19,10 +19,20 @@ def test_geometric_decay_is_extrapolated():
         _, cells, _ = cut(generic_torus())
     size = first_sizes(cells, 10.0)
     sizes = [10.0 ** (-0.4 * k * np.arange(n)) for n, k in zip(size, cells.exponents)]
-    jumps = np.full(cells.n_interfaces, -30.0)
+    # Jumps are as large as the last coefficients beside them.
+    jumps = np.log10([a[-1] for a in sizes])[cells.cell].max(axis=1)
     found = next_sizes(cells, sizes, jumps, 12.0)
     # No less than the decay demands, and a little more, as it may become slower.
     radial, enough = found * cells.exponents, 12.0 / 0.4
     assert (radial > enough - 5 * cells.exponents - 1).all()
     assert (radial < 1.2 * enough + 5 * cells.exponents + 1).all()
     assert (node_counts(cells, found) % 4 == 0).all()
+
+
+def test_coefficients_are_not_believed_where_nothing_jumps():
+    with flint.ctx.workprec(100):
+        _, cells, _ = cut(generic_torus())
+    size = first_sizes(cells, 10.0)
+    noise = [np.full(n, 0.1) for n in size]
+    found = next_sizes(cells, noise, np.full(cells.n_interfaces, -13.0), 10.0)
+    assert (found <= size).all()

@@ -5,6 +5,7 @@ from flint import arb
 from igl_periods.enclosures.exact_arithmetic import (
     ball_from_text,
     ball_in_text,
+    exponent_of,
     from_integers,
     to_integers,
 )
@@ -26,3 +27,11 @@ def test_integers_give_the_ball_again(ball):
 def test_text_contains_the_ball(ball, digits):
     with flint.ctx.workprec(200):
         assert ball_from_text(ball_in_text(ball, digits)).contains(ball)
+
+
+@pytest.mark.parametrize("ball", [x for x in BALLS if x != 0 and x.mid() != 0], ids=str)
+def test_exponent_is_the_least_power_of_two_above(ball):
+    e = exponent_of(ball)
+    assert arb(2) ** (e - 1) <= abs(ball.mid()) < arb(2) ** e
+    assert exponent_of(-ball) == e
+    assert exponent_of(arb(0)) < -(10**6)

@@ -1,9 +1,10 @@
 import flint
 import numpy as np
+import pytest
 from support.enclosed_surfaces import cut, generic_torus
 
-from igl_periods.enclosures.quadrature import ChordBounds, gauss_balls, shape
-from igl_periods.enclosures.series import Series
+from igl_periods.enclosures.quadrature import SegmentBounds, gauss_balls, shape
+from igl_periods.enclosures.series import PowerTables, Series, face_trace, star_traces
 
 
 def test_rule_is_exact_on_polynomials():
@@ -20,35 +21,68 @@ def test_shape_is_height_over_length_and_foot():
     assert foot.contains(flint.arb(0.75))
 
 
-def test_bound_covers_the_error_of_few_nodes():
+def random_series(seed=1, length=14):
+    _, cells, _ = cut(generic_torus(), 300)
+    rng = np.random.default_rng(seed)
+    coefficients = [
+        [[flint.acb(*rng.normal(size=2)) * 0.6**k for k in range(length)] for _ in range(2)]
+        for _ in range(cells.n_cells)
+    ]
+    return Series(cells, coefficients)
+
+
+@pytest.mark.parametrize("accuracy", [-3.0, -12.0, -40.0])
+def test_bounds_of_chords_cover_the_errors_of_few_nodes(accuracy):
     with flint.ctx.workprec(300):
-        _, cells, _ = cut(generic_torus(), 300)
-        rng = np.random.default_rng(1)
-        coefficients = [
-            [[flint.acb(*rng.normal(size=2)) * 0.6**k for k in range(6)] for _ in range(2)]
-            for _ in range(cells.n_cells)
-        ]
-        series = Series(cells, coefficients)
-        bounds = ChordBounds(series)
+        series = random_series()
+        bounds = SegmentBounds(series)
         zero = [flint.arb(0)] * 2
-        for i in (0, 5, 11):
-            polynomials = series.on_segment(i, 0)
-            for accuracy in (-3.0, -20.0):
-                rule = bounds.rule(i, polynomials, 2, accuracy)
-                bound = bounds.error(i, polynomials, (zero, zero), rule)
-                error = _flux(series, i, rule.n_nodes) - _flux(series, i, 120)
-                assert float(abs(error).upper()) < float(bound[0, 0].upper())
+        jumping = np.flatnonzero(np.abs(series.cells.jumps).sum(axis=1)).tolist()
+        for i in (0, 5, *jumping[:3]):
+            face = series.on_segment(i, 0)
+            rule = bounds.chord_rule(i, face, accuracy)
+            bound = bounds.chord_error(i, face, (zero, zero), rule)
+            check_bound(bound, *(_energies(series, i, n) for n in (rule.n_nodes, 120)))
 
 
-def _flux(series, i, n):
-    """∫ 2 (g − u/2) Im G on the star's side, for the first form, by n nodes."""
-    from igl_periods.enclosures.series import PowerTables, face_trace, star_traces
+@pytest.mark.parametrize("accuracy", [-3.0, -12.0, -40.0])
+def test_bounds_of_gaps_cover_the_errors_of_few_nodes(accuracy):
+    with flint.ctx.workprec(300):
+        series = random_series()
+        bounds = SegmentBounds(series)
+        for i in range(series.cells.n_chords, series.cells.n_interfaces)[:4]:
+            sides = [series.on_segment(i, side) for side in range(2)]
+            rule = bounds.gap_rule(*sides, accuracy)
+            assert rule.n_nodes <= 16
+            bound = bounds.gap_error(i, *sides, rule)
+            check_bound(bound, *(_energies(series, i, n) for n in (rule.n_nodes, 120)))
 
-    tables = PowerTables(lambda n: gauss_balls(n)[0])
-    counts = [n] * series.cells.n_interfaces
-    star = dict(star_traces(series, tables, counts))[i].tolist()
-    face = face_trace(series.on_segment(i, 0), tables, n, 0).tolist()
-    weights = gauss_balls(n)[1]
-    return sum(
-        (2 * w * (a[0] - b[0] / 2) * b[4] for w, a, b in zip(weights, face, star)), flint.arb(0)
-    )
+
+def check_bound(bound, few, many):
+    for found, e in zip((few - many).entries(), bound.entries()):
+        assert float(abs(found).upper()) <= float(e.upper()) + 1e-60
+
+
+def _energies(series, i, n):
+    """All integrals over a segment, without correction, by n nodes; (2, 2)."""
+    cells, tables = series.cells, PowerTables(lambda n: gauss_balls(n)[0])
+    first = face_trace(series.on_segment(i, 0), tables, n, 0)
+    if i < cells.n_chords:
+        second = dict(star_traces(series, tables, [n] * cells.n_interfaces))[i]
+    else:
+        second = face_trace(series.on_segment(i, 1), tables, n, 1)
+    height, foot = shape(cells.start[i][1], cells.end[i][1])
+    total = flint.arb_mat(2, 2)
+    for t, w, a, b in zip(*gauss_balls(n), first.tolist(), second.tolist()):
+        delta = [g - int(j) - u for g, j, u in zip(a, cells.jumps[i], b)]
+        slope = [x + y for x, y in zip(a[2:4], b[2:4])]
+        slanted = [d + ((1 - t) / 2 - foot) * e for d, e in zip(delta, slope)]
+        here, there = [u / 2 for u in a[:2]], [d + u / 2 for d, u in zip(delta, b)]
+        half = _outer(here, a[4:]) + _outer(there, b[4:])
+        mismatch = _outer(slanted, slanted) / (2 * height) + _outer(slope, slope) * (height / 2)
+        total += (half + half.transpose() + mismatch) * w
+    return total
+
+
+def _outer(x, y):
+    return flint.arb_mat([[a * b for b in y] for a in x])

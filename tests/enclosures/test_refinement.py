@@ -42,3 +42,16 @@ def test_series_are_the_sums_of_the_newton_bases(refined_torus):
 def test_series_are_exact_midpoints(refined_torus):
     for forms in refined_torus.series.coefficients:
         assert all(c.is_exact() for form in forms for c in form)
+
+
+def test_going_on_from_a_smaller_solution_leads_to_the_same_one(refined_torus):
+    cells = refined_torus.problem.trial.nodes.cells
+    size = refined_torus.problem.trial.size + 8
+    nodes = InterfaceNodes.of(cells, node_counts(cells, size))
+    trial = trial_functions(nodes, size, refined_torus.problem.trial)
+    problem = least_squares(trial)
+    onward, anew = refined(problem, 24.0, refined_torus), refined(problem, 24.0)
+    assert onward.residual < refined_torus.residual - 2.0
+    assert abs(onward.residual - anew.residual) < 1.0
+    for a, b in zip(onward.newton, anew.newton):
+        assert np.abs(a - b).max() < 1e-13

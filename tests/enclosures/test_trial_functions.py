@@ -25,3 +25,18 @@ def test_values_are_products_and_of_size_one():
         regular = np.abs(w[rows, None] - points[:k]).min(axis=1) > 1e-6
         assert np.allclose(trial.slopes[cell][regular, k], logarithmic[regular], rtol=1e-8)
         assert np.unique(points).size == size[cell]
+
+
+def test_a_larger_basis_goes_on_where_a_smaller_one_ended():
+    with flint.ctx.workprec(100):
+        _, cells, _ = cut(generic_genus_two())
+    size = 9 + np.arange(cells.n_cells) % 4
+    small = trial_functions(InterfaceNodes.of(cells, np.full(cells.n_interfaces, 20)), size)
+    nodes = InterfaceNodes.of(cells, np.full(cells.n_interfaces, 28))
+    large = trial_functions(nodes, size + 6, small)
+    for cell in range(cells.n_cells):
+        n = size[cell]
+        assert (large.points[cell][:n] == small.points[cell]).all()
+        assert (large.factors[cell][:n] == small.factors[cell]).all()
+        assert np.unique(large.points[cell]).size == n + 6
+        assert np.abs(large.values[cell]).max() < 1.5

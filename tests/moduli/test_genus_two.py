@@ -2,6 +2,7 @@
 
 from itertools import combinations, product
 
+import flint
 import numpy as np
 import pytest
 from support.exact_action import moebius_distance
@@ -10,7 +11,11 @@ from support.quadrature_periods import period_matrix as curve_period_matrix
 
 import igl_periods as ip
 from igl_periods.moduli.equivalence import symplectic_isomorphisms
-from igl_periods.moduli.genus_two import igusa_clebsch_invariants, rosenhain_roots
+from igl_periods.moduli.genus_two import (
+    absolute_igusa_invariants,
+    igusa_clebsch_invariants,
+    rosenhain_roots,
+)
 from igl_periods.moduli.theta import theta_constants
 from igl_periods.siegel.half_space import siegel_transform
 from igl_periods.siegel.reduction import siegel_reduce
@@ -125,3 +130,29 @@ def test_igusa_clebsch_invariants_by_modular_forms():
 def test_singular_curves(roots, message):
     with pytest.raises(ValueError, match=message):
         igusa_clebsch_invariants(roots)
+
+
+@pytest.mark.parametrize("word", [0, 3])
+def test_invariants_in_balls_contain_rational_numbers(word):
+    # y² = x⁶ − 1, in the marking of the surface or in a random one.
+    with flint.ctx.workprec(200):
+        root = flint.arb(3).sqrt()
+        Pi = flint.acb_mat([[flint.acb(0, x / root) for x in row] for row in ((2, -1), (-1, 2))])
+        gamma = random_word(2, word, np.random.default_rng(1), 8)
+        (a, b), (c, d) = (
+            [flint.acb_mat(block.astype(int).tolist()) for block in np.hsplit(half, 2)]
+            for half in np.vsplit(gamma, 2)
+        )
+        moved = (a * Pi + b) * (c * Pi + d).inv()
+        found = absolute_igusa_invariants(moved)
+        roots = rosenhain_roots(Pi)
+        assert all(z.contains(x) for z, x in zip(roots, (1.5, 2, 3)))
+        exact = [flint.fmpq(51200000, 3), 480000, 148000]
+        assert all(z.contains(flint.acb(flint.arb(x))) for z, x in zip(found, exact))
+        assert max(float(z.real.rad()) for z in found) < 1e-30
+    with pytest.raises(ValueError, match="coincide"):
+        igusa_clebsch_invariants([flint.acb(flint.arb(1, 0.1)), flint.acb(2), flint.acb(3)])
+
+
+def test_products_known_in_balls_have_no_invariants():
+    assert absolute_igusa_invariants(flint.acb_mat([[1j, 0], [0, 2j]])) is None

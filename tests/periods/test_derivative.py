@@ -8,6 +8,7 @@ from support.random_surfaces import L_SHAPE, noisy_torus
 
 import igl_periods as ip
 from igl_periods.complexes import (
+    Barycentres,
     DeltaComplex,
     delaunay_flips,
     edge_lengths,
@@ -15,6 +16,7 @@ from igl_periods.complexes import (
     with_positions,
 )
 from igl_periods.errors import ComplexError
+from igl_periods.harmonic import length_gradient, moments
 from igl_periods.surfaces import (
     flat_torus,
     glued_rectangles,
@@ -62,6 +64,20 @@ def test_motions_and_similarities_move_nothing(surface):
     turn = np.array([[0.0, 1.0, -0.3], [-1.0, 0.0, 0.7], [0.3, -0.7, 0.0]])
     moved = pm.derivative(vertices=np.stack([V @ turn, V, np.ones_like(V)]))
     assert np.abs(moved).max() < 1e-12
+
+
+def test_gradients_add_up_over_the_two_sides_of_an_edge(surface):
+    """Each face has a share of its own; without flips an edge gets those of its two half-edges."""
+    pm = kept(surface, delaunay=False)
+    S = np.random.default_rng(1).normal(size=(1, 2 * pm.genus, 2 * pm.genus))
+    S = S + S.transpose(0, 2, 1)
+    T = pm.forms.basis.astype(float)
+    moment = moments(pm.forms.gradients, T.T @ S @ T, surface.n_faces)
+    by_side = (length_gradient(surface.lengths, moment)[0] / surface.lengths).ravel()
+    twin = surface.twin.ravel()
+    found = pm.forms.length_gradients(surface, S)[0]
+    scale = np.abs(found).max()
+    assert np.abs(found[surface.edge.ravel()] - by_side - by_side[twin]).max() < 1e-12 * scale
 
 
 @pytest.mark.parametrize("estimate", ESTIMATES)
@@ -323,6 +339,43 @@ def test_kept_forms_pickle(surface):
     assert np.array_equal(again.gradient(W).lengths, pm.gradient(W).lengths)
 
 
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"tolerance": 1e-3},
+        {"tolerance": 1e-9},
+        {"rigorous": True},
+        {"rigorous": True, "degree": 3},
+        {"rigorous": True, "tolerance": 1e-4},
+    ],
+)
+def test_forms_are_kept_with_a_tolerance_and_with_a_proof(options, mesh):
+    """The matrix is the same as without; derivatives are as accurate, in every marking."""
+    K = DeltaComplex.from_mesh(*mesh("bob_small.ply"))
+    dV = K.positions @ np.random.default_rng(0).normal(size=(3, 3))
+    pm, plain = kept(K, **options), ip.period_matrix(K, **options)
+    assert np.array_equal(pm.dirichlet, plain.dirichlet) and pm.bound == plain.bound
+    assert pm.rigorous == options.get("rigorous", False)
+    exact = kept(K, degree=9).derivative(vertices=dV)
+    assert relative(pm.derivative(vertices=dV), exact) < 30 * pm.bound
+    back = np.sum(pm.gradient([[1.0]]).vertices * dV)
+    assert back == pytest.approx(pm.derivative(vertices=dV)[0, 0].real, rel=1e-9)
+    gamma = np.array([[2, 1], [3, 2]])
+    Q = 1 / (3 * pm.matrix[0, 0] + 2)
+    moved = pm.change_basis(gamma).derivative(vertices=dV)
+    assert relative(moved, Q**2 * pm.derivative(vertices=dV)) < 1e-8
+
+
+def test_derivatives_go_back_through_divided_faces(mesh):
+    """Rounds of barycentres, each with flips after it; scaling moves nothing."""
+    K = DeltaComplex.from_mesh(*mesh("bob_small.ply"))
+    pm = kept(K, tolerance=1e-9)
+    assert any(isinstance(move, Barycentres) for move in pm.forms.moves)
+    by_length = pm.gradient([[1.0 + 1j]]).lengths
+    assert by_length.shape == (K.n_edges,)
+    assert abs(by_length @ edge_lengths(K)) < 1e-10 * np.abs(by_length * edge_lengths(K)).sum()
+
+
 def test_surfaces_without_positions_have_gradients_by_lengths():
     pm = kept(DeltaComplex.from_squares(L_SHAPE, 2))
     assert pm.gradient(np.eye(2)).vertices is None
@@ -408,13 +461,10 @@ def test_matrices_whose_forms_are_lost():
             pm.gradient([[1.0]])
 
 
-@pytest.mark.parametrize(
-    "options", [{"tolerance": 1e-3}, {"weights": "extrinsic"}, {"rigorous": True}]
-)
-def test_options_that_keep_no_forms(options):
-    K = DeltaComplex.from_squares(L_SHAPE, 2)
-    with pytest.raises(ValueError, match="keep_forms=True goes with"):
-        ip.period_matrix(K, keep_forms=True, **options)
+def test_extrinsic_weights_keep_no_forms():
+    K = DeltaComplex.from_mesh(*noisy_torus(6, 5, 0.1, 0))
+    with pytest.raises(ValueError, match="keep_forms=True goes with intrinsic weights"):
+        ip.period_matrix(K, keep_forms=True, weights="extrinsic")
 
 
 def test_genus_zero(meshes):

@@ -34,4 +34,4 @@ def test_forms_are_found_again_with_or_without_flips():
     for delaunay in (True, False):
         pm = ip.period_matrix(K, delaunay=delaunay)
         forms = recomputed_forms(K, pm.cocycles, pm.dirichlet)
-        assert bool(forms.rounds) == delaunay
+        assert bool(forms.moves) == delaunay

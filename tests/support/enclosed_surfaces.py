@@ -1,10 +1,16 @@
 """Surfaces cut into stars and faces, and period matrices that are known exactly."""
 
+from dataclasses import replace
+from fractions import Fraction
+from functools import partial
+from itertools import product
+
 import flint
 import numpy as np
 from flint import acb, acb_mat, arb
 
 import igl_periods as ip
+from igl_periods.complexes import by_kind, circumradius, root_of
 from igl_periods.enclosures.cells import cells_of
 from igl_periods.enclosures.delaunay_moves import make_delaunay
 from igl_periods.enclosures.exact_lengths import checked_balls, lengths_of
@@ -39,6 +45,23 @@ def generic_genus_two(seed=5):
     K = ip.surfaces.regular_map_surface("bolza")
     of_edge = rng.uniform(0.9, 1.1, K.n_edges)
     return ip.DeltaComplex.from_gluing(K.lengths * of_edge[K.edge], K.twin)
+
+
+def polygons(k, n, partner):
+    """n regular k-gons with sides of length 1 and vertices at their centres."""
+    twin = np.empty((n * k, 3), dtype=np.int64)
+    for p, i in product(range(n), range(k)):
+        face = p * k + i
+        q, j = partner(p, i)
+        # Side 0 is that of the polygon; side 1 leads to the centre, side 2 from it.
+        twin[face, 0] = 3 * (q * k + j)
+        twin[face, 1] = 3 * (p * k + (i + 1) % k) + 2
+        twin[face, 2] = 3 * (p * k + (i - 1) % k) + 1
+    radius = 0.5 / np.sin(np.pi / k)
+    K = ip.DeltaComplex.from_gluing(np.tile([1.0, radius, radius], (n * k, 1)), twin)
+    kind = np.tile([0, 1, 1], (n * k, 1))
+    formulas = (root_of(Fraction(1)), partial(circumradius, k, 1))
+    return replace(K, exact_lengths=by_kind(K.edge, kind, formulas))
 
 
 def l_shape(arm):
