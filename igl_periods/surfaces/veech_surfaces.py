@@ -200,7 +200,8 @@ def prototype_surface(a: int, b: int, c: int, e: int) -> DeltaComplex:
     if not (b > 0 and c > 0 and (a, b, c, e) in weierstrass_prototypes(D)):
         raise ComplexError(
             f"(a, b, c, e) = ({a}, {b}, {c}, {e}) is not a prototype: b, c > 0, 0 <= a < gcd(b, "
-            "c), c + e < b and gcd(a, b, c, e) = 1 are needed. weierstrass_prototypes(D) lists them."
+            "c), c + e < b and gcd(a, b, c, e) = 1 are needed. "
+            "weierstrass_prototypes(D) lists them."
         )
     root = math.isqrt(D)
     surd = Fraction(root) if root * root == D else algebraic_number([-D, 0, 1], math.sqrt(D))

@@ -1,5 +1,6 @@
 """How Sphinx builds the site; ``python scripts/docs`` calls it."""
 
+import logging
 import os
 import sys
 import warnings
@@ -73,6 +74,9 @@ html_show_sourcelink = False
 html_theme_options = {"navigation_with_keys": False}
 pygments_style = "a11y-high-contrast-light"
 pygments_dark_style = "a11y-high-contrast-dark"
+
+
+logging.getLogger("igl_periods").setLevel(logging.WARNING)
 
 
 def escape(app, what, name, obj, options, lines):
