@@ -83,7 +83,7 @@ class Flips:
 
 
 def intrinsic_delaunay(K: DeltaComplex, cochains: csr_array) -> tuple[DeltaComplex, csr_array]:
-    """Flip edges until all are Delaunay, and carry closed cochains along.
+    """Flip edges until all are Delaunay: the complex, and the closed cochains carried to it.
 
     Parameters
     ----------

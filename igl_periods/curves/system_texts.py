@@ -58,7 +58,7 @@ def to_latex(x: Any) -> str:
 
 
 def to_sage(x: Any) -> str:
-    """The same for Sage; balls as ``ComplexBallField`` elements.
+    """A number, a matrix or a curve as text for Sage; balls as ``ComplexBallField`` elements.
 
     Raises
     ------
@@ -86,7 +86,7 @@ def to_sage(x: Any) -> str:
 
 
 def to_magma(x: Any) -> str:
-    """The same for Magma: midpoints over a complex field of so many digits.
+    """A number, a matrix or a curve as text for Magma: midpoints, in a field of so many digits.
 
     Raises
     ------
@@ -117,7 +117,7 @@ def to_magma(x: Any) -> str:
 
 
 def to_pari(x: Any) -> str:
-    """The same for PARI/GP: midpoints with so many digits.
+    """A number, a matrix or a curve as text for PARI/GP: midpoints with so many digits.
 
     Raises
     ------

@@ -145,7 +145,7 @@ def deform_along(
     embedded: bool = False,
     tolerance: float = _TOLERANCE,
 ) -> list[Deformation]:
-    """Follow a path of period matrices with the vertices of a mesh.
+    """Follow a path of period matrices with the vertices of a mesh: a deformation for each.
 
     Parameters
     ----------

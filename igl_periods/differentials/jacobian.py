@@ -55,7 +55,7 @@ class AbelJacobi(ReadOnlyArrays):
 
 
 def abel_jacobi(pm: PeriodMatrix, base: int = 0) -> AbelJacobi:
-    """Map every vertex to the Jacobian.
+    """The Abel–Jacobi map of all vertices to the Jacobian.
 
     Parameters
     ----------

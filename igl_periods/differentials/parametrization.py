@@ -146,7 +146,7 @@ class Parametrization(ReadOnlyArrays):
 
 
 def parametrize(pm: PeriodMatrix, coefficients: ArrayLike) -> Parametrization:
-    """Integrate a holomorphic differential over the surface, cut to a disk.
+    """The map z = ∫ζ of a surface, cut to a disk, by a holomorphic differential.
 
     Parameters
     ----------

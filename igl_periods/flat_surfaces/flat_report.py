@@ -166,7 +166,7 @@ class FlatSurfaceReport(ReadOnlyArrays):
 
 @of_a_surface
 def flat_surface_report(K: DeltaComplex) -> FlatSurfaceReport:
-    """Say which flat surface this is: stratum, holonomy, area, dz and its periods.
+    """Which flat surface this is: stratum, holonomy, area, dz and its periods.
 
     Parameters
     ----------

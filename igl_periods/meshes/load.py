@@ -36,7 +36,7 @@ def load_mesh(
     weld: float = WELD,
     largest_hole: int = 0,
 ) -> tuple[Floats, Ints, MeshReport]:
-    """Read a triangle mesh from a file.
+    """Read a triangle mesh from a file: V, F and a report.
 
     OBJ, OFF, PLY, STL, 3MF, glTF and GLB are read in double precision and in the order of the file,
     each of them compressed by gzip too (``mesh.obj.gz``).  Polygons are divided into triangles
@@ -116,7 +116,7 @@ def load_mesh(
 
 
 def split_components(V: ArrayLike, F: ArrayLike) -> list[tuple[Floats, Ints]]:
-    """Split a mesh into its components, in the order of their first triangles.
+    """Split a mesh into components: a pair (V, F) each, in the order of their first triangles.
 
     Triangles are connected where exactly two of them share an edge.
 

@@ -131,7 +131,7 @@ def _degrees(angles: Floats) -> str:
 
 @of_a_surface
 def mesh_quality(K: DeltaComplex) -> MeshQuality:
-    """Measure what decides about the accuracy of the period matrix.
+    """What the accuracy of a period matrix depends on: angles, flips, shares of the bound.
 
     Parameters
     ----------

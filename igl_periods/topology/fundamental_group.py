@@ -78,7 +78,7 @@ class FundamentalPolygon(ReadOnlyArrays):
 
 @of_a_surface
 def fundamental_polygon(K: DeltaComplex, trees: TreeCotree | None = None) -> FundamentalPolygon:
-    """Cut a surface open along a tree and the edges that are left over.
+    """Cut a surface open along a tree and the edges that are left over: a 4g-gon.
 
     Parameters
     ----------

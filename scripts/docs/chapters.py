@@ -21,6 +21,14 @@ SOURCE = Path(ip.__file__).parent
 LONE_MODULES = {"genus_two": "moduli"}
 # Packages whose names one imports from them; of the others what matters is in igl_periods itself.
 ENTERED = ("surfaces", "forms", "domains", "pictures", "reports", "batch", "distributed")
+# Pictures of data/gallery that show what a chapter is about.
+FIGURES = {
+    "topology": ("lawson_2_1_cycles.png", "Canonical cycles on Lawson's surface of genus 2"),
+    "elements": ("accuracy.svg", "Certified digits against unknowns and seconds"),
+    "differentials": ("lawson_2_1_checkerboard.png", "A holomorphic form as a checkerboard"),
+    "surfaces": ("wente_20x20_checkerboard.png", "Wente's torus"),
+    "pictures": ("lawson_2_1_density.png", "The length of a holomorphic form in colours"),
+}
 # Where nothing else says so: exceptions, and what is defined directly below igl_periods.
 HOME = "errors"
 
@@ -134,6 +142,10 @@ def chapter(package):
     yield title(
         package.replace("_", " ").capitalize() + ": " + decapitalised(escaped(first.rstrip(".")))
     )
+    if package in FIGURES:
+        file, what = FIGURES[package]
+        yield f".. figure:: ../../../data/gallery/{file}\n"
+        yield f"   :alt: {what}\n   :width: 400\n\n   {what}.\n\n"
     yield "\n".join(escaped_lines(rest.strip().splitlines())) + "\n\n"
     names = [entry for entry in entries_of()[package] if is_for_users(entry)]
     if names:

@@ -68,6 +68,7 @@ html_theme = "furo"
 html_title = f"igl_periods {release}"
 html_static_path = [str(HERE / "static")]
 html_css_files = ["site.css"]
+html_js_files = ["site.js"]
 html_show_search_summary = False  # it would be fetched, which pages from files may not do
 html_copy_source = False
 html_show_sourcelink = False

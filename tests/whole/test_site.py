@@ -55,6 +55,20 @@ def test_each_package_has_its_chapter(pages, package):
     assert f"   {package}\n" in pages["reference/index.rst"]
 
 
+@pytest.mark.parametrize("package", PACKAGES)
+def test_each_chapter_is_restructured_text(package, chapters):
+    core = pytest.importorskip("docutils.core", reason="docutils is not installed")
+    from docutils.parsers.rst import roles
+    from plain_mathematics import escaped_lines
+
+    for role in ("mod", "class", "func", "meth", "attr"):
+        roles.register_generic_role(role, importlib.import_module("docutils.nodes").literal)
+    doc = inspect.getdoc(importlib.import_module(f"igl_periods.{package}"))
+    text = "\n".join(escaped_lines(doc.splitlines()))
+    # A mistake of level 2, a warning, ends this.
+    core.publish_doctree(text, settings_overrides={"halt_level": 2, "report_level": 5})
+
+
 def test_each_public_name_has_one_entry(pages, chapters):
     found = list(documented(pages))
     assert len(found) == len(set(found))
