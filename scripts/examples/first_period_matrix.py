@@ -9,6 +9,7 @@ damaged file is read, repaired, judged, and its period matrix computed to certif
 import tempfile
 from pathlib import Path
 
+import igl
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -16,21 +17,15 @@ import igl_periods as ip
 from igl_periods.pictures import quality_scene, render, with_legend
 
 # %%
-# A damaged file.  An STL file has no vertices in common: every triangle has its own three.  Two
+# A damaged file.  No triangle has a vertex in common with another one: each has its own three.  Two
 # triangles are missing, one occurs twice, and one is turned round.
 
 V, F, _ = ip.load_mesh(ip.sample_files()["lawson_2_1"])
 F = np.concatenate([F[2:], F[10:11]])
 F[100] = F[100, ::-1]
 folder = tempfile.TemporaryDirectory()
-scan = Path(folder.name, "scan.stl")
-lines = [
-    f"facet normal 0 0 0\nouter loop\n{corners}\nendloop\nendfacet"
-    for corners in (
-        "\n".join(f"vertex {x:.17g} {y:.17g} {z:.17g}" for x, y, z in triangle) for triangle in V[F]
-    )
-]
-scan.write_text("solid scan\n" + "\n".join(lines) + "\nendsolid scan\n")
+scan = Path(folder.name, "scan.off")
+igl.write_triangle_mesh(str(scan), V[F].reshape(-1, 3), np.arange(F.size).reshape(-1, 3))
 
 # %%
 # Reading it shows what is wrong.  Without repair this is not a closed surface.

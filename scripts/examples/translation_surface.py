@@ -37,6 +37,7 @@ plt.show()
 
 proved = ip.enclose(L, digits=50)
 print(proved.reduced())
+print(proved.reduced().matrix[0, 0].imag.str(50))
 assert proved.digits >= 50
 
 # %%
