@@ -136,4 +136,4 @@ def shown(row: bytes) -> str:
 
 
 def _no(what: str, made: str, row: bytes) -> MeshError:
-    return MeshError(f"this line is no {what}, which is {made}: {shown(row)}.")
+    return MeshError(f"this line is not a {what}, which is {made}: {shown(row)}.")
