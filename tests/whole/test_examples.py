@@ -1,15 +1,12 @@
 """The tutorials run.  What they draw is drawn when the site is built; here pictures are blank."""
 
-import os
 import runpy
-import shutil
-import subprocess
-import sys
 import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
+from support.mpi_processes import mpiexec
 
 EXAMPLES = Path(__file__).parents[2] / "scripts" / "examples"
 # What is tested elsewhere, and what needs another launcher.
@@ -58,20 +55,7 @@ def test_tutorials_begin_with_a_title(path):
     assert not blank
 
 
-@pytest.mark.slow
 def test_one_mesh_under_mpi():
-    pytest.importorskip("mpi4py", reason="scripts/setup --distributed installs MPI and PETSc")
-    mpiexec = shutil.which("mpiexec")
-    if mpiexec is None:
-        pytest.skip("there is no mpiexec")
-    script = str(EXAMPLES / "one_mesh_under_mpi.py")
-    command = [mpiexec, "-n", "2", sys.executable, "-m", "mpi4py", script]
-    environment = os.environ | {
-        "OMPI_ALLOW_RUN_AS_ROOT": "1",
-        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-    }
-    ended = subprocess.run(
-        command, env=environment, capture_output=True, text=True, timeout=300, check=False
-    )
-    assert ended.returncode == 0, ended.stderr
-    assert "2 ranks" in ended.stdout
+    done = mpiexec(2, "-m", "mpi4py", EXAMPLES / "one_mesh_under_mpi.py")
+    assert done.returncode == 0, done.stderr
+    assert "2 ranks" in done.stdout

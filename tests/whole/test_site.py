@@ -122,6 +122,21 @@ def test_references_find_entries_by_other_names(chapters):
     assert page_of_object("repair_mesh", "igl_periods.meshes") == "chapters/meshes"
 
 
+def test_tutorials_have_a_place_in_the_gallery(chapters):
+    from tutorial_order import ORDER, by_number
+
+    scripts = {path.stem for path in (ROOT / "scripts" / "examples").glob("*.py")}
+    assert set(ORDER) <= scripts
+    assert by_number(f"somewhere/{ORDER[1]}.py") < by_number("another.py")
+
+
+def test_the_command_sets_up_and_builds():
+    command = DOCS / "build"
+    assert command.stat().st_mode & 0o111
+    assert 'scripts/setup" --docs' in command.read_text(encoding="utf-8")
+    assert "/build/" in (ROOT / ".gitignore").read_text(encoding="utf-8")
+
+
 @pytest.mark.slow
 def test_the_site_builds_without_a_warning(tmp_path):
     pytest.importorskip("sphinx_gallery", reason="scripts/setup --docs installs what builds it")
