@@ -38,10 +38,6 @@ is a rule, and where the bound is wanted *proved* it is replaced by balls
 
 This is about the conformal structure of the *polyhedral* surface, whose triangles have the stored
 side lengths; it says nothing about a smooth surface that a mesh samples.
-
-References
-----------
-Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 3.
 """
 
 from __future__ import annotations
