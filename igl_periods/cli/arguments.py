@@ -241,7 +241,7 @@ def read_complex(options: argparse.Namespace) -> tuple[DeltaComplex, MeshReport 
     Raises
     ------
     ValueError
-        If it is no surface, with the way out and the report.
+        If it is not a surface, with the way out and the report.
     """
     with stage("reading the file"):
         surface, report = read_surface(options.mesh, **repair_options(options))

@@ -1,9 +1,9 @@
 """A flat surface as its polygons in the plane, drawn as an SVG file.
 
 Glued sides have the same letter and colour, with a prime where the second one is glued by a
-rotation that is no translation.  Vertices of the surface are dots of one colour each, hollow where
-the total angle is 2π; the legend tells the angles.  Polygons that overlap in their own coordinates
-are drawn one beside the other.
+rotation that is not a translation.  Vertices of the surface are dots of one colour each, hollow
+where the total angle is 2π; the legend tells the angles.  Polygons that overlap in
+their own coordinates are drawn one beside the other.
 """
 
 from __future__ import annotations

@@ -29,7 +29,7 @@ from .scene import Scene
 
 _LARGEST = 4096
 # How long a picture may take, in seconds: many times what drivers in software were seen to take,
-# at the start, for a pixel, and for a triangle: a busy machine is no reason to give up.
+# at the start, for a pixel, and for a triangle: a busy machine is not a reason to give up.
 _START, _PIXEL, _TRIANGLE = 300.0, 1e-4, 1e-4
 # What Open3D does when it is taken down again is of no interest.
 _PROGRAM = """
