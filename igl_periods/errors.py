@@ -3,7 +3,7 @@
 .. code-block:: text
 
     PeriodsError
-    ├── MeshError                  what was handed over is no triangulated surface      ValueError
+    ├── MeshError                  handed over was no triangulated surface              ValueError
     ├── ComplexError               … no surface with a period matrix                    ValueError
     ├── NotASiegelPointError       … no point of the Siegel upper half-space            ValueError
     ├── CurveError                 … no Jacobian of a curve that is found here          ValueError

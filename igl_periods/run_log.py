@@ -9,7 +9,7 @@ Three kinds of records, told apart by their attributes:
 ========  =======  =========================================
 stage     seconds  the stage has started (None), or is done
 progress  done     how far a part of it has come
-          total    … of how many, or None if nobody knows
+          total    … of how many, or None if it is not known
 ========  =======  =========================================
 """
 

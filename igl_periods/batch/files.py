@@ -63,7 +63,7 @@ def _below(folder: Path) -> Iterator[Path]:
     for here, folders, names in os.walk(folder):
         folders[:] = [name for name in folders if not name.startswith(".")]
         for path in (Path(here, name) for name in names if not name.startswith(".")):
-            # Links to nothing are missing files; pipes and devices are no files at all.
+            # Links to nothing are missing files; pipes and devices are not files at all.
             if is_surface_file(path.name) and (path.is_file() or not path.exists()):
                 yield path
 
@@ -71,7 +71,7 @@ def _below(folder: Path) -> Iterator[Path]:
 def _listed(file: Path) -> list[Path]:
     data = file.read_bytes().removeprefix(b"\xef\xbb\xbf")
     if b"\0" in data:
-        raise MeshError(f"{file}: this is no folder, no mesh, and no text file with paths.")
+        raise MeshError(f"{file}: this is neither a folder nor a mesh nor a text file with paths.")
     lines = [line.strip() for line in data.splitlines()]
     paths = [Path(os.fsdecode(line)) for line in lines if line and not line.startswith(b"#")]
     if not paths:
@@ -80,5 +80,5 @@ def _listed(file: Path) -> list[Path]:
 
 
 def _text(path: Path) -> str:
-    """A path as text; bytes that are no text are written as escapes."""
+    """A path as text; bytes that are not text are written as escapes."""
     return os.fsencode(path).decode("utf-8", "backslashreplace")

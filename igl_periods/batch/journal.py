@@ -89,7 +89,7 @@ class Journal:
         first = self._file.readline()
         if first != _HEADER and not _HEADER.startswith(first):
             raise FileExistsError(
-                f"{str(self.path)!r} is no journal of a batch: move it away, or choose another "
+                f"{str(self.path)!r} is not a journal of a batch: move it away, or choose another "
                 "output."
             )
         whole = len(first) if first == _HEADER and not restart else 0

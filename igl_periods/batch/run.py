@@ -137,7 +137,7 @@ def run_batch(
 
 
 def _silent(done: int, refused: int, total: int) -> None:
-    """Tell nobody."""
+    """Report no progress."""
 
 
 def _is_current(rows: list[Row], path: Path, options: BatchOptions, retry: bool) -> bool:

@@ -151,7 +151,7 @@ def add_json_argument(command: Parser) -> None:
     )
 
 
-def add_output_argument(command: Parser, what: str, *suffixes: str) -> None:
+def add_output_argument(command: Parser, what: str, *suffixes: str, required: bool = True) -> None:
     """Add the file that a command writes: its name is checked here, its place in :func:`claim`."""
     known = " or ".join(suffixes)
 
@@ -161,7 +161,12 @@ def add_output_argument(command: Parser, what: str, *suffixes: str) -> None:
         return text
 
     command.add_argument(
-        "-o", "--output", required=True, type=output, metavar="FILE", help=f"{what} ({known})"
+        "-o",
+        "--output",
+        required=required,
+        type=output,
+        metavar="FILE",
+        help=f"{what} ({known})",
     )
 
 
@@ -236,7 +241,7 @@ def read_complex(options: argparse.Namespace) -> tuple[DeltaComplex, MeshReport 
     Raises
     ------
     ValueError
-        If it is no surface, with the way out and the report.
+        If it is not a surface, with the way out and the report.
     """
     with stage("reading the file"):
         surface, report = read_surface(options.mesh, **repair_options(options))

@@ -29,7 +29,7 @@ barycentres, the double.  The surface stays what it is, and the classes go along
 ``glued_squares``         unit squares glued along sides, and grids of them
 ``lattices``              cells of periodic surfaces, glued by translations
 ``delta_complex``         the complex itself
-``mesh_readers``          who knows how to read a mesh that is no V, F
+``mesh_readers``          readers of meshes that are not arrays
 ``surface_arguments``     whatever is called a surface, as a complex
 ``surface_checks``        closed, oriented, connected: what a period matrix needs
 ``half_edges``            both directions of every edge

@@ -96,7 +96,7 @@ def checked_corners(F: ArrayLike, n_vertices: int | None) -> Ints:
             f"{question}"
         )
     if high > np.iinfo(np.int64).max // 2:
-        raise MeshError(f"F refers to vertex {high}, which is no sensible index.")
+        raise MeshError(f"F refers to vertex {high}, which is not a sensible index.")
     return np.array(array, dtype=np.int64, order="C")
 
 
@@ -125,7 +125,9 @@ def checked_array(values: ArrayLike, name: str, error: type[ValueError]) -> NDAr
     try:
         return np.asarray(values)
     except ValueError as ragged:
-        raise error(f"{name} is no rectangular array: its rows have different lengths.") from ragged
+        raise error(
+            f"{name} is not a rectangular array: its rows have different lengths."
+        ) from ragged
     except (TypeError, RuntimeError) as refused:
         raise error(f"{name} cannot be made an array: {refused}") from refused
 

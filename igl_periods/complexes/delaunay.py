@@ -83,7 +83,7 @@ class Flips:
 
 
 def intrinsic_delaunay(K: DeltaComplex, cochains: csr_array) -> tuple[DeltaComplex, csr_array]:
-    """Flip edges until all are Delaunay, and carry closed cochains along.
+    """Flip edges until all are Delaunay: the complex, and the closed cochains carried to it.
 
     Parameters
     ----------
@@ -104,6 +104,15 @@ def intrinsic_delaunay(K: DeltaComplex, cochains: csr_array) -> tuple[DeltaCompl
     ------
     ComplexError
         If flipping does not end, which only rounding on extreme triangles could cause.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> V, F = ip.surfaces.torus_of_revolution(2.0, 1.0, 12, 8)
+    >>> K = ip.DeltaComplex.from_mesh(V, F)
+    >>> L, cochains = ip.intrinsic_delaunay(K, ip.cohomology_basis(K))
+    >>> L.n_faces == K.n_faces, cochains.shape == (2, L.n_edges)
+    (True, True)
     """
     flipped, rounds = delaunay_flips(K)
     return flipped, transport(cochains, rounds)

@@ -42,7 +42,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from igl_periods.arrays import Floats, Ints, ReadOnlyArrays
-from igl_periods.display import counted, facts_html
+from igl_periods.display import Shown, counted, facts_html
 from igl_periods.errors import MeshError
 from igl_periods.run_log import logger
 
@@ -69,7 +69,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class DeltaComplex(ReadOnlyArrays):
+class DeltaComplex(Shown, ReadOnlyArrays):
     """Euclidean triangles glued along their sides.
 
     Build one with :meth:`from_mesh`, :meth:`from_lengths`, :meth:`from_gluing`,
@@ -110,6 +110,13 @@ class DeltaComplex(ReadOnlyArrays):
         Where the faces of the quotient of a periodic surface lie in space.
     polygons : GluedPolygons or None
         The polygons of the plane that the surface was glued from, whose triangles the faces are.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> torus = ip.DeltaComplex.from_squares([((0, 0), (0, 2)), ((0, 1), (0, 3))], n=4)
+    >>> torus.n_vertices, torus.n_edges, torus.n_faces, torus.genus
+    (16, 48, 32, 1)
     """
 
     lengths: Floats
@@ -315,7 +322,7 @@ class DeltaComplex(ReadOnlyArrays):
         Raises
         ------
         MeshError
-            If the text is no JSON of that form.
+            If the text is not JSON of that form.
         ComplexError
             If the gluing is none.
         """

@@ -96,7 +96,7 @@ def double(K: DeltaComplex, *, along: ArrayLike | None = None) -> DeltaComplex:
     Raises
     ------
     ComplexError
-        If ``along`` names what is no half-edge of the boundary.
+        If ``along`` names what is not a half-edge of the boundary.
 
     Examples
     --------
@@ -143,7 +143,7 @@ def _mirrors(K: DeltaComplex, along: ArrayLike) -> Bools:
         raise ComplexError(f"along must be half-edges 3 f + s, integers, not {chosen.dtype}.")
     wrong = [h for h in chosen.tolist() if not (0 <= h < free.size and free[h])]
     if wrong:
-        raise ComplexError(f"half-edge {wrong[0]} of along is no side of the boundary.")
+        raise ComplexError(f"half-edge {wrong[0]} of along is not a side of the boundary.")
     glued = np.zeros(free.size, dtype=bool)
     glued[chosen.astype(np.int64)] = True
     return glued
@@ -188,8 +188,8 @@ def involution(doubled: DeltaComplex) -> Involution:
     twin, edge, sign = doubled.twin.ravel(), doubled.edge.ravel(), doubled.sign.ravel()
     if odd or np.any(twin < 0) or not np.array_equal(twin[image], image[twin]):
         raise ComplexError(
-            f"the complex, of {doubled.n_faces} faces, is no double: exchanging face f with face "
-            "f + m does not respect its gluing. Take the involution of double(K) itself."
+            f"the complex, of {doubled.n_faces} faces, is not a double: exchanging face f with "
+            "face f + m does not respect its gluing. Take the involution of double(K) itself."
         )
     forward = np.empty(doubled.n_edges, dtype=np.int64)
     running = np.flatnonzero(sign > 0)

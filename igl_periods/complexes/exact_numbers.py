@@ -200,7 +200,7 @@ def algebraic_number(coefficients: list[int] | tuple[int, ...], near: float) -> 
     Raises
     ------
     ComplexError
-        If the coefficients are no integers, or the polynomial has no real root.
+        If the coefficients are not integers, or the polynomial has no real root.
 
     Examples
     --------

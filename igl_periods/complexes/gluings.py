@@ -114,7 +114,7 @@ def checked_twin(twin: ArrayLike) -> Ints:
     if wrong.size:
         h = int(wrong[0])
         raise ComplexError(
-            f"twin is no involution without fixed points: half-edge {h} is glued to {flat[h]}, "
+            f"twin is not an involution without fixed points: half-edge {h} is glued to {flat[h]}, "
             f"and {flat[h]} to {flat[flat[h]]} ({wrong.size} such half-edges). Each side is glued "
             "to one other side, and back."
         )

@@ -23,7 +23,7 @@ _readers: list[Reader] = []
 
 
 def mesh_reader(reader: Reader) -> Reader:
-    """Register a reader, which is asked about whatever is no array; a decorator."""
+    """Register a reader, which is asked about whatever is not an array; a decorator."""
     _readers.append(reader)
     return reader
 
@@ -50,7 +50,7 @@ def vertices_and_faces(surface: Any, F: Any = None) -> tuple[Any, Any] | DeltaCo
     Raises
     ------
     MeshError
-        If faces are missing or there twice, or nobody knows what it is.
+        If faces are missing or there twice, or the object is not known to hold a mesh.
     """
     if is_array_like(surface):
         if F is None:
@@ -58,7 +58,7 @@ def vertices_and_faces(surface: Any, F: Any = None) -> tuple[Any, Any] | DeltaCo
         return surface, F
     if F is not None:
         raise MeshError(
-            f"{described(surface)} has faces of its own, or is no surface: leave F away."
+            f"{described(surface)} has faces of its own, or is not a surface: leave F out."
         )
     if _is_pair(surface):
         return surface[0], surface[1]
@@ -67,7 +67,7 @@ def vertices_and_faces(surface: Any, F: Any = None) -> tuple[Any, Any] | DeltaCo
         if mesh is not None:
             return mesh
     raise MeshError(
-        f"{described(surface)} is no surface. Hand over V and F, a DeltaComplex, the path of a "
+        f"{described(surface)} is not a surface. Hand over V and F, a DeltaComplex, the path of a "
         "mesh file, or a mesh of trimesh, Open3D, PyVista or meshio."
     )
 
@@ -95,7 +95,7 @@ def has_rows(value: Any) -> bool:
 
 def _without_faces(surface: Any) -> str:
     if hasattr(surface, "complex"):
-        return f"{described(surface)} is no surface but belongs to one: hand over its .complex."
+        return f"{described(surface)} is not a surface but belongs to one: hand over its .complex."
     return (
         f"faces are missing beside {described(surface)}: hand over V and F, (m, 3) integers, or "
         "one object that has both, such as a DeltaComplex."

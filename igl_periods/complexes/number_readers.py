@@ -48,7 +48,7 @@ def exact_number(x: Any) -> Number:
     Raises
     ------
     ComplexError
-        If it is no finite real number.
+        If it is not a finite real number.
     """
     return read_number(x)[0]
 
@@ -60,7 +60,7 @@ def read_number(x: Any) -> tuple[Number, bool]:
     if isinstance(x, FieldElement | ComputedNumber):
         return x, False
     if isinstance(x, bool):
-        raise ComplexError(f"{x} is no number of the plane.")
+        raise ComplexError(f"{x} is not a number of the plane.")
     if isinstance(x, Rational | str):
         return _fraction(x), False
     if isinstance(x, flint.fmpz | flint.fmpq):
@@ -122,14 +122,14 @@ def _fraction(x: Any) -> Fraction:
     try:
         return Fraction(x) if isinstance(x, str) else Fraction(int(x.numerator), int(x.denominator))
     except (ValueError, ZeroDivisionError) as error:
-        raise ComplexError(f"{x!r} is no rational number.") from error
+        raise ComplexError(f"{x!r} is not a rational number.") from error
 
 
 def _from_float(x: Any) -> Fraction:
     try:
         value = float(x)
     except (TypeError, ValueError, OverflowError) as error:
-        raise ComplexError(f"{x!r} is no real number.") from error
+        raise ComplexError(f"{x!r} is not a real number.") from error
     if not math.isfinite(value):
         raise ComplexError(f"{x!r} is not finite.")
     return Fraction(value)
@@ -173,7 +173,7 @@ def _sage_fraction(c: Any) -> Fraction:
 
 def _from_evalf(x: Any) -> Number:
     if getattr(x, "is_real", None) is False or getattr(x, "free_symbols", None):
-        raise ComplexError(f"{x} is no real number.")
+        raise ComplexError(f"{x} is not a real number.")
     return ComputedNumber(partial(_evaluated, x))
 
 

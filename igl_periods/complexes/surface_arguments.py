@@ -80,7 +80,7 @@ def as_complex(surface: SurfaceLike | ArrayLike, F: ArrayLike | None = None) -> 
     """
     if isinstance(surface, DeltaComplex):
         if F is not None:
-            raise MeshError("a DeltaComplex has its own faces: leave F away.")
+            raise MeshError("a DeltaComplex has its own faces: leave F out.")
         return surface
     mesh = vertices_and_faces(surface, F)
     if isinstance(mesh, DeltaComplex):

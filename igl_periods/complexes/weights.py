@@ -44,7 +44,7 @@ def cotan_weights(K: DeltaComplex) -> Floats:
 def extrinsic_weights(K: DeltaComplex) -> Floats:
     """The extrinsic weights ‖y − y'‖/‖e‖, circumcentres measured in space; shape (n_edges,).
 
-    The paper's naive alternative (its section 2).  It is no energy of functions on the surface,
+    The paper's naive alternative (its section 2).  It is not an energy of functions on the surface,
     so that no error bound follows from it.
 
     Raises

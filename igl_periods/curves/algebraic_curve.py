@@ -68,6 +68,13 @@ class AlgebraicCurve:
     proved : bool
         Whether the balls contain the exact period matrix, not only what an array is taken to be.
     remarks : tuple of str
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> C = ip.curve_of_form([-1, 0, 0, 0, 0, 0, 1])
+    >>> C.equation, C.genus
+    ('y^2 = x^6 - 1', 2)
     """
 
     genus: int

@@ -62,7 +62,7 @@ def clebsch_invariants(f: Form) -> list[Any]:
     Raises
     ------
     ValueError
-        If this is no sextic.
+        If this is not a sextic.
     """
     _check_degree(f, 6)
     i, _, delta, y1, _, y3 = sextic_covariants(f)
@@ -112,7 +112,7 @@ def shioda_invariants(f: Form) -> list[Any]:
     Raises
     ------
     ValueError
-        If this is no octic.
+        If this is not an octic.
     """
     _check_degree(f, 8)
     g, k = transvectant(f, f, 4), transvectant(f, f, 6)

@@ -71,11 +71,11 @@ def curve(Pi: Any, *, degree: int = DEGREE) -> AlgebraicCurve:
     ------
     CurveError
         For a sphere; for a ``PeriodMatrix`` without a certificate; for a period matrix of a product
-        of lower genera, which is no curve's, or one so near that its balls cannot tell.
+        of lower genera, which is that of no curve, or one so near that its balls cannot tell.
     NotASiegelPointError
-        If Π is no point of the Siegel upper half-space.
+        If Π is not a point of the Siegel upper half-space.
     ValueError
-        If the degree is no positive integer.
+        If the degree is not a positive integer.
 
     Examples
     --------
@@ -141,7 +141,7 @@ def curve_of_form(
     Raises
     ------
     ValueError
-        If there are not 7 or 9 coefficients, or F is no quartic.
+        If there are not 7 or 9 coefficients, or F is not a quartic.
 
     Examples
     --------

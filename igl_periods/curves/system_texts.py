@@ -58,12 +58,20 @@ def to_latex(x: Any) -> str:
 
 
 def to_sage(x: Any) -> str:
-    """The same for Sage; balls as ``ComplexBallField`` elements.
+    """A number, a matrix or a curve as text for Sage; balls as ``ComplexBallField`` elements.
 
     Raises
     ------
     TypeError
         If it is none of these.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> print(ip.to_sage(ip.curve_of_form([-1, 0, 0, 0, 0, 0, 1])), end="")
+    R.<x> = PolynomialRing(QQ)
+    f = x^6 - 1
+    C = HyperellipticCurve(f)
     """
     if isinstance(x, AlgebraicCurve):
         return _sage_curve(x)
@@ -78,12 +86,20 @@ def to_sage(x: Any) -> str:
 
 
 def to_magma(x: Any) -> str:
-    """The same for Magma: midpoints over a complex field of so many digits.
+    """A number, a matrix or a curve as text for Magma: midpoints, in a field of so many digits.
 
     Raises
     ------
     TypeError
         If it is none of these.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> print(ip.to_magma(ip.curve_of_form([-1, 0, 0, 0, 0, 0, 1])), end="")
+    R<x> := PolynomialRing(Rationals());
+    f := x^6 - 1;
+    X := HyperellipticCurve(f);
     """
     if isinstance(x, AlgebraicCurve):
         return _magma_curve(x)
@@ -101,12 +117,18 @@ def to_magma(x: Any) -> str:
 
 
 def to_pari(x: Any) -> str:
-    """The same for PARI/GP: midpoints with so many digits.
+    """A number, a matrix or a curve as text for PARI/GP: midpoints with so many digits.
 
     Raises
     ------
     TypeError
         If it is none of these.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> print(ip.to_pari(ip.curve_of_form([-1, 0, 0, 0, 0, 0, 1])), end="")
+    f = x^6 - 1;
     """
     if isinstance(x, AlgebraicCurve):
         return _pari_curve(x)

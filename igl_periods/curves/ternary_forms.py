@@ -101,7 +101,7 @@ def dixmier_ohno_invariants(F: TernaryForm) -> list[Any]:
     Raises
     ------
     ValueError
-        If this is no quartic.
+        If this is not a quartic.
     """
     if not F or {sum(exponents) for exponents in F} != {4}:
         raise ValueError("a plane quartic has terms of degree 4 and no others")

@@ -47,6 +47,13 @@ class Deformation:
     steps : tuple of Step
     verdict : str
         How it ended, in words; empty where the target was reached.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> found = ip.lengths_with(ip.surfaces.flat_torus(1j, 3), [[1.1j]])
+    >>> found.reached, found.vertices is None
+    (True, True)
     """
 
     period_matrix: PeriodMatrix

@@ -37,6 +37,13 @@ def smooth_functions(
     ------
     ValueError
         If there are not so many.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> V, F = ip.surfaces.torus_of_revolution(2.0, 1.0, 12, 8)
+    >>> ip.smooth_functions(V, F, count=4).shape
+    (96, 4)
     """
     K, count = as_complex(surface, F), checked_integer("count", count)
     if not 1 <= count < K.n_vertices:

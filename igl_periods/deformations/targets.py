@@ -85,7 +85,7 @@ def deform_to(
     MeshError, ComplexError
         As :func:`period_matrix`; and if the genus is 0, or there are no positions.
     NotASiegelPointError
-        If the target is no point of the Siegel upper half-space.
+        If the target is not a point of the Siegel upper half-space.
     ValueError
         If it has another genus, the basis another shape, the tolerance is not positive, or the
         surface is to stay embedded and is not.
@@ -95,6 +95,14 @@ def deform_to(
     DeformationWarning
         If the target is not reached.  The result is the nearest surface that was found, and its
         ``verdict`` says why.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> V, F = ip.surfaces.torus_of_revolution(2.0, 1.0, 12, 8)
+    >>> found = ip.deform_to(V, F, [[1.8j]])
+    >>> found.reached, bool(found.distance < 1e-9)
+    (True, True)
     """
     K = as_complex(V, F)
     chart = VertexChart.of(K, basis, smoothing, embedded)
@@ -117,6 +125,12 @@ def lengths_with(
 
     Parameters, Returns, Raises, Warns
         As :func:`deform_to`; no positions are needed, and the result has none.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> ip.lengths_with(ip.surfaces.flat_torus(1j, 3), [[1.1j]]).reached
+    True
     """
     return _deformed(LengthChart(K), K, target, degree, keep_marking, tolerance, max_steps)
 
@@ -131,7 +145,7 @@ def deform_along(
     embedded: bool = False,
     tolerance: float = _TOLERANCE,
 ) -> list[Deformation]:
-    """Follow a path of period matrices with the vertices of a mesh.
+    """Follow a path of period matrices with the vertices of a mesh: a deformation for each.
 
     Parameters
     ----------
@@ -148,6 +162,15 @@ def deform_along(
 
     Raises, Warns
         As :func:`deform_to`.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> V, F = ip.surfaces.torus_of_revolution(2.0, 1.0, 12, 8)
+    >>> Pi = ip.period_matrix(V, F).matrix
+    >>> path = ip.moduli_path(Pi, 1.1 * Pi, 3)
+    >>> [found.reached for found in ip.deform_along(V, F, path)]
+    [True, True, True]
     """
     K = as_complex(V, F)
     chart = VertexChart.of(K, basis, smoothing, embedded)
@@ -157,7 +180,16 @@ def deform_along(
 def lengths_along(
     K: DeltaComplex, path: Sequence[ArrayLike] | ArrayLike, *, tolerance: float = _TOLERANCE
 ) -> list[Deformation]:
-    """Follow a path of period matrices with the lengths of a surface; see :func:`deform_along`."""
+    """Follow a path of period matrices with the lengths of a surface; see :func:`deform_along`.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> K = ip.surfaces.flat_torus(1j, 3)
+    >>> path = ip.moduli_path(ip.period_matrix(K).matrix, [[1.1j]], 3)
+    >>> [found.reached for found in ip.lengths_along(K, path)]
+    [True, True, True]
+    """
     return _followed(LengthChart(K), K, path, tolerance)
 
 

@@ -35,6 +35,14 @@ def most_even_form(pm: PeriodMatrix) -> Complexes:
     ComplexError
         If the surface is a sphere, or its triangles are so thin that their Laplacian is singular
         to rounding.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> V, F = ip.surfaces.torus_of_revolution(2.0, 1.0, 12, 8)
+    >>> pm = ip.period_matrix(V, F)
+    >>> ip.most_even_form(pm).shape
+    (1,)
     """
     check_period_matrix(pm)
     checked_coefficients(pm, np.ones(pm.genus))
@@ -50,6 +58,14 @@ def evenness(pm: PeriodMatrix, coefficients: ArrayLike) -> float:
     ------
     ValueError
         If the number of coefficients is not g, or all are 0 or one is not finite.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> V, F = ip.surfaces.torus_of_revolution(2.0, 1.0, 12, 8)
+    >>> pm = ip.period_matrix(V, F)
+    >>> ip.evenness(pm, [1.0]) >= 0
+    True
     """
     s = checked_coefficients(pm, coefficients)
     p, q = linear_parts(pm.complex, s @ normalised_differentials(pm))

@@ -55,7 +55,7 @@ class AbelJacobi(ReadOnlyArrays):
 
 
 def abel_jacobi(pm: PeriodMatrix, base: int = 0) -> AbelJacobi:
-    """Map every vertex to the Jacobian.
+    """The Abel–Jacobi map of all vertices to the Jacobian.
 
     Parameters
     ----------
@@ -67,6 +67,14 @@ def abel_jacobi(pm: PeriodMatrix, base: int = 0) -> AbelJacobi:
     ------
     ValueError
         If there is no such vertex.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> V, F = ip.surfaces.torus_of_revolution(2.0, 1.0, 12, 8)
+    >>> pm = ip.period_matrix(V, F)
+    >>> ip.abel_jacobi(pm)
+    AbelJacobi(96 vertices in a Jacobian of dimension 1)
     """
     check_period_matrix(pm)
     K, base = pm.complex, checked_integer("base", base)
@@ -103,7 +111,15 @@ def divisor_class(pm: PeriodMatrix, divisor: Mapping[int, int], base: int = 0) -
     Raises
     ------
     ValueError
-        If there is no such vertex, or a multiplicity is no integer.
+        If there is no such vertex, or a multiplicity is not an integer.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> V, F = ip.surfaces.torus_of_revolution(2.0, 1.0, 12, 8)
+    >>> pm = ip.period_matrix(V, F)
+    >>> ip.divisor_class(pm, {0: 1, 5: -1}).shape
+    (1,)
     """
     image, g = abel_jacobi(pm, base), pm.genus
     total = np.zeros(2 * g)

@@ -146,7 +146,7 @@ class Parametrization(ReadOnlyArrays):
 
 
 def parametrize(pm: PeriodMatrix, coefficients: ArrayLike) -> Parametrization:
-    """Integrate a holomorphic differential over the surface, cut to a disk.
+    """The map z = ∫ζ of a surface, cut to a disk, by a holomorphic differential.
 
     Parameters
     ----------
@@ -162,6 +162,14 @@ def parametrize(pm: PeriodMatrix, coefficients: ArrayLike) -> Parametrization:
     ComplexError
         If the surface is a sphere, on which no holomorphic differential lives, or the triangles
         are so thin that their Laplacian is singular to rounding.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> V, F = ip.surfaces.torus_of_revolution(2.0, 1.0, 12, 8)
+    >>> pm = ip.period_matrix(V, F)
+    >>> ip.parametrize(pm, [1.0])
+    Parametrization(genus 1, 192 faces, 117 vertices of the disk, cut along 20 edges)
     """
     s = checked_coefficients(pm, coefficients)
     K = pm.complex

@@ -37,6 +37,14 @@ def form_of_periods(pm: PeriodMatrix, periods: ArrayLike) -> Complexes:
     ------
     ValueError
         If the number of periods is not 2g, or all of them are free.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> V, F = ip.surfaces.torus_of_revolution(2.0, 1.0, 12, 8)
+    >>> pm = ip.period_matrix(V, F)
+    >>> ip.form_of_periods(pm, [2, 2 * pm.matrix[0, 0]]).round(9)
+    array([2.+0.j])
     """
     wanted = _checked_periods(pm, np.asarray(periods, dtype=np.complex128))
     given = ~np.isnan(wanted)
@@ -64,6 +72,14 @@ def form_of_real_periods(pm: PeriodMatrix, periods: ArrayLike) -> Complexes:
     ------
     ValueError
         If the number of periods is not 2g, or one is not finite.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> V, F = ip.surfaces.torus_of_revolution(2.0, 1.0, 12, 8)
+    >>> pm = ip.period_matrix(V, F)
+    >>> ip.form_of_real_periods(pm, [1.0, 0.0]).shape
+    (1,)
     """
     wanted = _checked_periods(pm, np.asarray(periods, dtype=np.float64))
     if not np.isfinite(wanted).all():

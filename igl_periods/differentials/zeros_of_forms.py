@@ -38,6 +38,14 @@ class FormZeros(ReadOnlyArrays):
         These indices: orders of zeros, or negative beside zeros that lie between vertices.
     reversed_faces : (m,) int
         Faces that z = ∫ζ turns over: one order of a zero each.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> K = ip.surfaces.square_tiled_surface("omega_1", n=2)
+    >>> pm = ip.period_matrix(K)
+    >>> ip.form_zeros(pm, [1, 0]).total
+    2
     """
 
     vertices: Ints
@@ -76,6 +84,16 @@ def form_zeros(pm: PeriodMatrix, coefficients: ArrayLike) -> FormZeros:
     ComplexError
         If the surface is a sphere, or its triangles are so thin that their Laplacian is singular
         to rounding.
+
+    Examples
+    --------
+    2g − 2 of them.
+
+    >>> import igl_periods as ip
+    >>> K = ip.surfaces.square_tiled_surface("omega_1", n=2)
+    >>> pm = ip.period_matrix(K)
+    >>> ip.form_zeros(pm, ip.most_even_form(pm)).total
+    2
     """
     P = parametrize(pm, coefficients)
     index = P.index

@@ -45,7 +45,7 @@ def period_matrix(
     ----------
     surface, F
         The surface, as in :func:`igl_periods.period_matrix`.  Only those of rank 0 are used; the
-        other ranks leave them away.
+        other ranks leave them out.
     comm : mpi4py.MPI.Intracomm, optional
         All ranks that mpiexec has started, by default.
     delaunay : bool

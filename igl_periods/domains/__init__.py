@@ -11,19 +11,19 @@ For a plane domain it is :math:`2\, (\operatorname{Im} \Pi)^{-1}`, in the markin
 C_2 … C_n.  So both sides of :math:`J D^{-1} J^T \le D_{exact} \le D` bound it, in the Loewner order
 and entry by entry.
 
-=======================  ======================================================================
-``domain_files``         polygons with holes from GeoJSON and SVG
-``boundary_classes``     the loops, and the classes that they make on the double
-``measures``             the functions u_i
-``capacities``           the capacity matrix between its bounds
-``conjugate_blocks``     both blocks of energies, of surfaces with handles too
-``capacity_balls``       the same in balls, to as many digits as are asked for
-``homogenisation``       effective conductivities of periodic surfaces and plates
-``quadrilaterals``       extremal lengths between two of four sides
-``slit_maps``            conformal maps onto annuli and rectangles with slits
-``functions_with_poles`` analytic functions with poles, constant in part on each loop
-``slit_planes``          conformal maps onto planes and discs with slits, normalised at points
-=======================  ======================================================================
+========================  ======================================================================
+``domain_files``          polygons with holes from GeoJSON and SVG
+``boundary_classes``      the loops, and the classes that they make on the double
+``measures``              the functions u_i
+``capacities``            the capacity matrix between its bounds
+``conjugate_blocks``      both blocks of energies, of surfaces with handles too
+``capacity_balls``        the same in balls, to as many digits as are asked for
+``homogenisation``        effective conductivities of periodic surfaces and plates
+``quadrilaterals``        extremal lengths between two of four sides
+``slit_maps``             conformal maps onto annuli and rectangles with slits
+``functions_with_poles``  analytic functions with poles, constant in part on each loop
+``slit_planes``           conformal maps onto planes and discs with slits, normalised at points
+========================  ======================================================================
 
 References
 ----------

@@ -73,6 +73,15 @@ class CapacityMatrix:
         C_1 … C_n, the rows of ``matrix``.
     complex : DeltaComplex
         The surface with boundary.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> V, F = ip.surfaces.planar_domain([0, 4, 4 + 4j, 4j], [[1 + 1j, 3 + 1j, 3 + 3j, 1 + 3j]])
+    >>> ip.capacity_matrix(V, F, tolerance=1e-6)
+    CapacityMatrix of 2 loops, bound 1.11e-07
+      10.23409  -10.23409
+      -10.23409  10.23409
     """
 
     period_matrix: PeriodMatrix

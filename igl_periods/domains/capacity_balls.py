@@ -39,6 +39,14 @@ class CapacityEnclosure:
     coefficients : (n, 2g) int
         The classes of the loops in its marking.
     loops : list of BoundaryLoop
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> V, F = ip.surfaces.planar_domain([0, 4, 4 + 4j, 4j], [[1 + 1j, 3 + 1j, 3 + 3j, 1 + 3j]])
+    >>> C = ip.enclosed_capacities(V, F, digits=10)
+    >>> C.matrix.nrows(), C.digits >= 10
+    (2, True)
     """
 
     period_enclosure: PeriodEnclosure
@@ -91,6 +99,13 @@ def enclosed_capacities(
     -----
     ToleranceWarning
         If fewer digits were proved than wanted.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> V, F = ip.surfaces.planar_domain([0, 4, 4 + 4j, 4j], [[1 + 1j, 3 + 1j, 3 + 3j, 1 + 3j]])
+    >>> ip.enclosed_capacities(V, F, digits=10).digits >= 10
+    True
     """
     loops = boundary_loops(K)
     if not loops:

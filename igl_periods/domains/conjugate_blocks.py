@@ -64,6 +64,14 @@ class EnergyBlocks:
     loops : list of BoundaryLoop
     complex : DeltaComplex
         The surface with boundary.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> V, F = ip.surfaces.planar_domain([0, 4, 4 + 4j, 4j], [[1 + 1j, 3 + 1j, 3 + 3j, 1 + 3j]])
+    >>> blocks = ip.energy_blocks(V, F, tolerance=1e-6)
+    >>> len(blocks.loops)
+    2
     """
 
     period_matrix: PeriodMatrix

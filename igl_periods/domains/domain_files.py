@@ -58,6 +58,19 @@ def read_domain(path: str | PathLike[str]) -> Rings:
         If the file holds no polygon with holes.
     MissingExtraError
         If svgelements, which reads SVG, is not installed.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import igl_periods as ip
+    >>> text = '{"type": "Polygon", "coordinates": [[[0, 0], [2, 0], [2, 1], [0, 0]]]}'
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder, "plate.geojson")
+    ...     written = path.write_text(text)
+    ...     outer, holes = ip.read_domain(path)
+    >>> outer.tolist(), holes
+    ([0j, (2+0j), (2+1j), 0j], [])
     """
     if not is_domain_file(path):
         known = " and ".join(DOMAIN_EXTENSIONS)
@@ -75,7 +88,7 @@ def read_domain(path: str | PathLike[str]) -> Rings:
     except MeshError:
         raise
     except (ValueError, KeyError, IndexError, TypeError, AttributeError, RecursionError) as error:
-        raise MeshError(f"this is no GeoJSON file with a polygon ({error}).") from error
+        raise MeshError(f"this is not a GeoJSON file with a polygon ({error}).") from error
     return outer, holes
 
 
@@ -106,7 +119,7 @@ def _read_svg(path: str | PathLike[str]) -> Rings:
         try:
             drawing = svgelements.SVG.parse(file)
         except (ParseError, ValueError) as error:
-            raise MeshError(f"this is no SVG file ({error}).") from error
+            raise MeshError(f"this is not an SVG file ({error}).") from error
     shapes = [shape for shape in drawing.elements() if isinstance(shape, svgelements.Shape)]
     rings = [ring for shape in shapes for ring in _rings(svgelements.Path(shape), type(shape))]
     if not rings:

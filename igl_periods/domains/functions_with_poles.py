@@ -4,7 +4,7 @@ Let S be the singular part: :math:`e^{-i\theta}/(z - a)`, :math:`\log(z - a)`, o
 :math:`\log(z - a) - \log(z - b)`.  Wanted is F = S + f, f analytic, such that on each boundary loop
 the real part of F is constant, or the imaginary one.
 
-S is no trial function.  Take a set B of faces around the singularities, away from the boundary.
+S is not a trial function.  Take a set B of faces around the singularities, away from the boundary.
 Outside of B the trial functions stand for F itself, inside for f = F − S.  With x the function that
 they have at the vertices, F − S in both, they jump across ∂B by the part of S that is not linear on
 its edges, the coefficients of ℓ_k in it (:mod:`igl_periods.elements.reference_elements`).  The

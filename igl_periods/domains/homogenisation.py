@@ -69,6 +69,19 @@ class EffectiveConductivity:
         Lower ≤ σ ≤ upper in the Loewner order.
     period_matrix : PeriodMatrix
         Of the surface, or of its double.
+
+    Examples
+    --------
+    A plane sheet conducts alike in all directions.
+
+    >>> import igl_periods as ip
+    >>> V = [[0, 0, 0], [1, 0, 0], [1, 2, 0], [0, 2, 0]]
+    >>> lattice = [[1, 0, 0], [0, 2, 0]]
+    >>> K = ip.DeltaComplex.from_mesh(V, [[0, 1, 2], [0, 2, 3]], lattice=lattice)
+    >>> ip.effective_conductivity(K).tensor.round(9) + 0.0
+    array([[1., 0., 0.],
+           [0., 1., 0.],
+           [0., 0., 0.]])
     """
 
     tensor: Floats
@@ -112,13 +125,25 @@ def effective_conductivity(
     Raises
     ------
     ComplexError
-        If the complex is no quotient by a lattice, is not oriented and connected, or a conducting
-        boundary leads from cell to cell.
+        If the complex is not a quotient by a lattice, is not oriented and connected, or a
+        conducting boundary leads from cell to cell.
 
     Warns
     -----
     ToleranceWarning
         If the tolerance is not met.
+
+    Examples
+    --------
+    A plane sheet conducts alike in all directions.
+
+    >>> import igl_periods as ip
+    >>> V = [[0, 0, 0], [1, 0, 0], [1, 2, 0], [0, 2, 0]]
+    >>> lattice = [[1, 0, 0], [0, 2, 0]]
+    >>> K = ip.DeltaComplex.from_mesh(V, [[0, 1, 2], [0, 2, 3]], lattice=lattice)
+    >>> ip.effective_conductivity(K).tensor[:2, :2].round(9) + 0.0
+    array([[1., 0.],
+           [0., 1.]])
     """
     if K.cell is None:
         raise ComplexError(

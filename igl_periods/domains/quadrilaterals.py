@@ -47,6 +47,13 @@ class ExtremalLength:
         The rows of V, or labels of vertices, of z_1 … z_4.
     capacities : CapacityMatrix
         Of the surface doubled along the insulated sides: it has twice the capacity.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> V, F = ip.surfaces.planar_domain([0, 3, 3 + 1j, 1j])
+    >>> round(float(ip.extremal_length(V, F, [0, 1, 2, 3])), 9)
+    0.333333333
     """
 
     corners: Ints
@@ -101,8 +108,8 @@ def extremal_length(
     Raises
     ------
     ComplexError
-        If the corners are no four vertices of one boundary loop in its order, or the surface is not
-        connected and oriented.
+        If the corners are not four vertices of one boundary loop in its order, or the surface is
+        not connected and oriented.
 
     Warns
     -----

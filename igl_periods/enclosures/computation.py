@@ -94,14 +94,14 @@ def enclose(
     Raises
     ------
     MeshError
-        If V and F are no triangulated surface.
+        If V and F are not a triangulated surface.
     ComplexError
         If the surface is not closed, oriented and connected, or a triangle is so flat that its
         lengths do not determine it.
     MemoryLimitError
         If even the first stage takes more memory than there is.
     ValueError
-        If ``digits`` is no whole number from 1 to 1000, or a limit is not positive.
+        If ``digits`` is not a whole number from 1 to 1000, or a limit is not positive.
 
     Warns
     -----

@@ -72,6 +72,13 @@ class PeriodEnclosure(InFloatingPoint):
         The surface as it was given, with ``exact_lengths`` if these are not the stored ones.
     bits : int
         The precision that ``dirichlet`` was computed with.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> proved = ip.enclose(ip.surfaces.flat_torus(1j), digits=20)
+    >>> proved.digits >= 20
+    True
     """
 
     dirichlet: flint.arb_mat
@@ -138,7 +145,7 @@ class PeriodEnclosure(InFloatingPoint):
         Raises
         ------
         ValueError
-            If gamma is no integer symplectic matrix of this size.
+            If gamma is not an integer symplectic matrix of this size.
         ComplexError
             If its entries are so large that no digits are left.
         """

@@ -61,7 +61,7 @@ class FlatSurfaceReport(ReadOnlyArrays):
     holonomy : int or None
         The order of the holonomy group; None if it is infinite.
     orders : tuple of int or None
-        The orders of dz^k at the vertices that are no marked points, decreasing; None for an
+        The orders of dz^k at the vertices that are not marked points, decreasing; None for an
         infinite holonomy group.
     marked_points : int
         Vertices of the angle 2π.
@@ -83,6 +83,13 @@ class FlatSurfaceReport(ReadOnlyArrays):
     known_by : {"exact", "balls", "floats"}
         How the holonomy was decided: exactly, from exact lengths to 100 digits, or from lengths
         that are doubles to 1e-9.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> report = ip.flat_surface_report(ip.surfaces.origami("(1,2,3)", "(1,4)"))
+    >>> report.stratum, report.genus
+    ('H(2)', 2)
     """
 
     genus: int
@@ -159,7 +166,7 @@ class FlatSurfaceReport(ReadOnlyArrays):
 
 @of_a_surface
 def flat_surface_report(K: DeltaComplex) -> FlatSurfaceReport:
-    """Say which flat surface this is: stratum, holonomy, area, dz and its periods.
+    """Which flat surface this is: stratum, holonomy, area, dz and its periods.
 
     Parameters
     ----------

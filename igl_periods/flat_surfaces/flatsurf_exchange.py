@@ -37,7 +37,14 @@ def from_flatsurf(S: Any) -> DeltaComplex:
     ------
     ComplexError
         If it has no such methods, infinitely many polygons or a boundary, or glues sides by
-        similarities that are no isometries.
+        similarities that are not isometries.
+
+    Examples
+    --------
+    >>> import flatsurf  # doctest: +SKIP
+    >>> import igl_periods as ip
+    >>> ip.from_flatsurf(flatsurf.translation_surfaces.regular_octagon()).genus  # doctest: +SKIP
+    2
     """
     for method in ("labels", "polygon", "opposite_edge"):
         if not callable(getattr(S, method, None)):
@@ -89,6 +96,12 @@ def to_flatsurf_dict(K: DeltaComplex) -> dict[str, Any]:
     ------
     ComplexError
         If the surface was not glued from polygons with exact coordinates.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> sorted(ip.to_flatsurf_dict(ip.surfaces.l_shape(2, 2)))
+    ['field', 'gluings', 'polygons']
     """
     polygons = K.polygons
     if polygons is None or not polygons.is_exact:

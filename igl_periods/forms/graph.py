@@ -83,6 +83,15 @@ class DoubleGraph(ReadOnlyArrays):
         The vertex of Λ, in Γ*, of the face of Γ that contains each triangle.
     sides : (4, n_edges) int
         The edges (x, y), (x', y), (x', y'), (x, y') of ◊ around each quadrilateral.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> V, F = ip.surfaces.torus_of_revolution(2.0, 1.0, 12, 8)
+    >>> K = ip.DeltaComplex.from_mesh(V, F)
+    >>> graph = ip.double_graph(K)
+    >>> len(graph.rho) == len(graph.edges)
+    True
     """
 
     complex: DeltaComplex
@@ -144,7 +153,7 @@ def double_graph(K: DeltaComplex, weights: ArrayLike | None = None) -> DoubleGra
 
     Examples
     --------
-    The square torus of four squares: their diagonals are no edges of Γ.
+    The square torus of four squares: their diagonals are not edges of Γ.
 
     >>> from igl_periods import DeltaComplex
     >>> torus = DeltaComplex.from_squares([((0, 0), (0, 2)), ((0, 1), (0, 3))], n=2)

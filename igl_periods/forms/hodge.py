@@ -69,6 +69,18 @@ def hodge_decomposition(graph: DoubleGraph, alpha: Values) -> HodgeDecomposition
     References
     ----------
     Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 2.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> import numpy as np
+    >>> V, F = ip.surfaces.torus_of_revolution(2.0, 1.0, 12, 8)
+    >>> K = ip.DeltaComplex.from_mesh(V, F)
+    >>> graph = ip.double_graph(K)
+    >>> alpha = np.random.default_rng(0).normal(size=(2, len(graph.edges)))
+    >>> parts = ip.hodge_decomposition(graph, alpha)
+    >>> np.allclose(parts.exact + parts.coexact + parts.harmonic, alpha)
+    True
     """
     omega, D = harmonic_basis(graph.complex, graph.weights)
     omega = omega[:, graph.edges]

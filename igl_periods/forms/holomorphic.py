@@ -125,6 +125,14 @@ def symplectic_mean_forms(
     ------
     ComplexError
         As for :func:`holomorphic_forms`.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> V, F = ip.surfaces.torus_of_revolution(2.0, 1.0, 12, 8)
+    >>> K = ip.DeltaComplex.from_mesh(V, F)
+    >>> ip.symplectic_mean_forms(K).shape == (1, 2, K.n_edges)
+    True
     """
     graph = K if isinstance(K, DoubleGraph) else double_graph(K)
     omega, D = harmonic_basis(graph.complex, graph.weights, cocycles)

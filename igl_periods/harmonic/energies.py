@@ -184,7 +184,8 @@ def weighted_energies(
 ) -> Floats:
     """The matrix Σ_e ρ(e) ω_i(e) ω_j(e) of the cochains ω = c + df; (k, k).
 
-    For weights that are no energy on a surface (extrinsic or abstract ones); no bound rests on it.
+    For weights that are not the energy of a surface (extrinsic or abstract ones); no bound rests
+    on it.
     """
     k = cochains.shape[0]
     D = np.zeros((k, k))

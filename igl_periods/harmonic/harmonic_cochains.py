@@ -49,6 +49,13 @@ def harmonic_forms(K: DeltaComplex, cocycles: csr_array | None = None) -> Floats
     References
     ----------
     Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 3.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> K = ip.surfaces.square_tiled_surface("omega_1", n=2)
+    >>> ip.harmonic_forms(K).shape == (4, K.n_edges)
+    True
     """
     return _harmonic(K, cotan_weights(K), checked_basis(K, cocycles))
 
@@ -78,6 +85,13 @@ def harmonic_form_blocks(
         If ``rows`` is less than 1.
     ComplexError
         As :func:`harmonic_forms`.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> K = ip.surfaces.square_tiled_surface("omega_1", n=2)
+    >>> [block.shape[0] for block in ip.harmonic_form_blocks(K, rows=3)]
+    [3, 1]
     """
     rows = checked_integer("rows", rows)
     if rows < 1:
@@ -142,7 +156,7 @@ def checked_basis(K: DeltaComplex, cocycles: csr_array | None) -> csr_array:
     if around.count_nonzero():
         raise ComplexError("the cocycles are not closed on the triangles of this complex.")
     if not np.array_equal(pairing(K, cocycles, cocycles), standard_form(K.genus)):
-        raise ComplexError("the cocycles are no canonical basis: their pairing is not J.")
+        raise ComplexError("the cocycles are not a canonical basis: their pairing is not J.")
     return cocycles
 
 

@@ -83,8 +83,8 @@ def energy_factor(D: Floats) -> Floats:
         return cholesky_factor(D)
     except NotPositiveDefiniteError as error:
         raise ComplexError(
-            f"the energy of the harmonic forms is {error}. Weights that are no energy do this, for "
-            "instance negative ones; so do surfaces too extreme for double precision, with "
+            f"the energy of the harmonic forms is {error}. Weights that are not an energy do this, "
+            "for instance negative ones; so do surfaces too extreme for double precision, with "
             "necks thinner than about 1e-7 of their length."
         ) from error
 

@@ -47,6 +47,13 @@ class EigenformRing:
     form : tuple of acb
         v_k = ∮_{a_k} ω.
     ring : EndomorphismRing
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> ring = ip.endomorphisms([[1j, 0], [0, 2j]])
+    >>> ip.eigenform_ring(ring, [1, 0]).rank
+    6
     """
 
     lattice: MatrixLattice
@@ -76,7 +83,7 @@ class EigenformRing:
     def real_multiplication(self) -> NumberField | None:
         """The totally real field of which an order acts with ω as eigenform; None if only Q does.
 
-        None too if the symmetric endomorphisms are no field: then ω comes from a factor, and
+        None too if the symmetric endomorphisms are not a field: then ω comes from a factor, and
         ``splits`` is true.
         """
         field = field_of(self.symmetric)

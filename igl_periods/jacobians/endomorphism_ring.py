@@ -77,6 +77,14 @@ class EndomorphismRing(Sequence[Ints]):
     bits : int
         Working precision of Π.
     evidence : RingEvidence
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> Pi = [[1.5j, -0.5], [-0.5, 1.5j]]
+    >>> ring = ip.endomorphisms(Pi)
+    >>> ring.rank, ring.name
+    (8, 'M₂(Q(i))')
     """
 
     lattice: MatrixLattice
@@ -146,7 +154,7 @@ class EndomorphismRing(Sequence[Ints]):
 
     @cached_property
     def field(self) -> NumberField | None:
-        """The field that End ⊗ Q is isomorphic to; None if it is no field."""
+        """The field that End ⊗ Q is isomorphic to; None if it is not a field."""
         return field_of(self.lattice) if self.is_commutative else None
 
     @property
@@ -201,13 +209,13 @@ class EndomorphismRing(Sequence[Ints]):
         Raises
         ------
         ValueError
-            If a ball excludes an element: it is proved to be no endomorphism.
+            If a ball excludes an element: it is proved not to be an endomorphism.
         """
         with flint.ctx.workprec(bits):
             wrong = [k for k, M in enumerate(self.basis) if misses(M, Pi)]
         if wrong:
             raise ValueError(
-                f"{len(wrong)} of {self.rank} matrices are no endomorphisms of the period matrix "
+                f"{len(wrong)} of {self.rank} matrices are not endomorphisms of the period matrix "
                 f"with {digits:.0f} digits: what was found with {self.evidence.digits:.0f} digits "
                 "was a coincidence, or the two matrices have different markings"
             )

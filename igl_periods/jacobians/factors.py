@@ -83,7 +83,7 @@ class JacobianFactor:
         Raises
         ------
         ValueError
-            If this is no elliptic curve.
+            If this is not an elliptic curve.
         """
         self._only_elliptic("τ")
         return self.matrix[0, 0]
@@ -95,7 +95,7 @@ class JacobianFactor:
         Raises
         ------
         ValueError
-            If this is no elliptic curve.
+            If this is not an elliptic curve.
         """
         self._only_elliptic("j")
         with flint.ctx.workprec(self.bits):
@@ -138,7 +138,7 @@ class JacobianFactor:
 
     @property
     def igusa_invariants(self) -> Complexes | None:
-        """Absolute Igusa invariants of a principally polarised surface that is no product.
+        """Absolute Igusa invariants of a principally polarised surface that is not a product.
 
         In double precision; see :func:`~igl_periods.genus_two.absolute_igusa_invariants`.
         """
@@ -217,6 +217,13 @@ class JacobianFactors(Sequence[IsotypicPart]):
     ----------
     parts : tuple of IsotypicPart
     ring : EndomorphismRing
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> Pi = [[1.5j, -0.5], [-0.5, 1.5j]]
+    >>> print(ip.jacobian_factors(Pi))
+    E²
     """
 
     parts: tuple[IsotypicPart, ...]

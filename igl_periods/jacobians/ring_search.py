@@ -54,10 +54,10 @@ def endomorphisms(
     Raises
     ------
     NotASiegelPointError
-        If Π is no point of the Siegel upper half-space.
+        If Π is not a point of the Siegel upper half-space.
     ValueError
         If too few digits are known, the genus is 0 or above ``max_genus``, digits are to be checked
-        of what is no PeriodEnclosure, or the check excludes an endomorphism.
+        of anything but a PeriodEnclosure, or the check excludes an endomorphism.
 
     References
     ----------

@@ -37,7 +37,9 @@ def check_output(output: str | os.PathLike[str], *sources: str | os.PathLike[str
     if not folder.exists():
         raise FileNotFoundError(f"there is no folder {str(folder)!r} for {place.name!r}")
     if not folder.is_dir():
-        raise NotADirectoryError(f"{str(folder)!r} is no folder, so {place.name!r} cannot be there")
+        raise NotADirectoryError(
+            f"{str(folder)!r} is not a folder, so {place.name!r} cannot be there"
+        )
     if place.is_dir():
         raise IsADirectoryError(f"the output {str(place)!r} is a folder")
     if any(_is_same(place, Path(source)) for source in sources):

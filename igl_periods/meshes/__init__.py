@@ -10,7 +10,7 @@ loops, the report says what keeps a mesh from having a period matrix.
 ``load``            the whole way from a path to V, F and a report
 ``facts``           how faces meet: edges, components, orientability, boundary
 ``report``          facts and repairs in words and as JSON
-``advice``          what to do with what is no closed surface
+``advice``          what to do with what is not a closed surface
 ``polygons``        polygons divided into triangles, all of them
 ``outlines``        one that is concave, or has straight corners
 ``repair``          weld, drop, orient, split, contract, fill

@@ -54,7 +54,7 @@ def _contractible(V: Floats, F: Ints) -> tuple[Ints, Ints]:
     tail, head = np.roll(F, -1, 1).ravel(), np.roll(F, 1, 1).ravel()
     once = twin.ravel() < np.arange(F.size)
     empty = _without_length(V, tail, head)
-    # A surface that is a single point is no surface, and stays as it is.
+    # A surface that is a single point is not a surface, and stays as it is.
     chosen = np.flatnonzero(once & empty)
     if chosen.size == 0 or empty.all():
         return chosen[:0], chosen[:0]

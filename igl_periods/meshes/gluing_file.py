@@ -28,5 +28,5 @@ def read_gluing(path: str | PathLike[str]) -> DeltaComplex:
     try:
         text = Path(path).read_text(encoding="utf-8")
     except UnicodeDecodeError as error:
-        raise MeshError(f"the file holds no gluing: it is no text ({error}).") from error
+        raise MeshError(f"the file holds no gluing: it is not text ({error}).") from error
     return DeltaComplex.from_json(text)

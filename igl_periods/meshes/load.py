@@ -36,7 +36,7 @@ def load_mesh(
     weld: float = WELD,
     largest_hole: int = 0,
 ) -> tuple[Floats, Ints, MeshReport]:
-    """Read a triangle mesh from a file.
+    """Read a triangle mesh from a file: V, F and a report.
 
     OBJ, OFF, PLY, STL, 3MF, glTF and GLB are read in double precision and in the order of the file,
     each of them compressed by gzip too (``mesh.obj.gz``).  Polygons are divided into triangles
@@ -75,6 +75,15 @@ def load_mesh(
     -----
     UserWarning
         Of what is odd about the file, though it could be read.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> V, F, report = ip.load_mesh(ip.sample_files()["wente_20x20"])
+    >>> V.shape, F.shape
+    ((400, 3), (800, 3))
+    >>> report.result.components[0]
+    MeshComponent(triangles=800, orientable=True, genus=1, boundary_loops=0)
     """
     mesh = read_mesh_file(path)
     try:
@@ -107,7 +116,7 @@ def load_mesh(
 
 
 def split_components(V: ArrayLike, F: ArrayLike) -> list[tuple[Floats, Ints]]:
-    """Split a mesh into its components, in the order of their first triangles.
+    """Split a mesh into components: a pair (V, F) each, in the order of their first triangles.
 
     Triangles are connected where exactly two of them share an edge.
 
@@ -125,6 +134,15 @@ def split_components(V: ArrayLike, F: ArrayLike) -> list[tuple[Floats, Ints]]:
     ------
     MeshError
         If the arrays have a wrong shape or type, or an index is out of range.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> import numpy as np
+    >>> V, F = ip.surfaces.torus_of_revolution(2.0, 1.0, 12, 8)
+    >>> two = np.concatenate([V, V + 9]), np.concatenate([F, F + len(V)])
+    >>> [len(faces) for _, faces in ip.split_components(*two)]
+    [192, 192]
     """
     positions = checked_positions(V)
     faces = checked_corners(F, len(positions))

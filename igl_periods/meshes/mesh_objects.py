@@ -2,8 +2,8 @@
 
 None of these libraries is imported.  What their meshes have in common is little: positions are
 called vertices, points, or ``vertex.positions``; faces may be rows, rows with leading counts in
-one array, or blocks of equal cells; and ``triangles`` of trimesh are coordinates.  What is no mesh
-of triangles or polygons is refused, with what its own library does about it.
+one array, or blocks of equal cells; and ``triangles`` of trimesh are coordinates.  What is not a
+mesh of triangles or polygons is refused, with what its own library does about it.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from .formats.mesh_file import checked_degrees
 from .polygons import triangulated
 
 _Mesh = tuple[Any, Any]
-# Cells of meshio that are no faces.
+# Cells of meshio that are not faces.
 _NO_FACES = ("vertex", "line", "line3")
 
 
@@ -32,7 +32,7 @@ def mesh_of_object(mesh: Any) -> _Mesh | None:
     Raises
     ------
     MeshError
-        If it is no mesh of triangles or polygons, or a polygon crosses itself.
+        If it is not a mesh of triangles or polygons, or a polygon crosses itself.
     """
     for cls in type(mesh).__mro__:
         reader = _READERS.get(cls.__module__.split(".")[0])

@@ -134,7 +134,7 @@ def _crossing(xy: Floats, height: Floats) -> tuple[int, float] | None:
 
 
 def _pairs_of_sides(xy: Floats) -> tuple[Ints, Ints] | None:
-    """Sides that are no neighbours, and whose shadows on the first axis overlap."""
+    """Sides that are not neighbours, and whose shadows on the first axis overlap."""
     d = len(xy)
     ends = np.stack([xy[:, 0], np.roll(xy[:, 0], -1)])
     low, high = ends.min(axis=0), ends.max(axis=0)

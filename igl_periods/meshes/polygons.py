@@ -76,7 +76,7 @@ def triangulated(V: Floats, corners: Ints, degrees: Ints) -> Triangulation:
     if not many.any():
         return Triangulation(F, 0, 0, 0, 0.0, spare)
     low = V[kept].min(axis=0)
-    # Areas of the largest coordinates are no infinities so.
+    # Areas of the largest coordinates are not infinities so.
     size = float(np.abs(V[kept] / 2 - low / 2).max()) or 1.0
     P = (V / 2 - low / 2) / size
     good, unevenness = _good_fans(P, F, owner, kept, sizes)

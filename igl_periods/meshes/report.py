@@ -63,6 +63,13 @@ class MeshReport:
         Empty without repair.
     result : MeshFacts
         The mesh after repair; the same as ``loaded`` without.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> report = ip.load_mesh(ip.sample_files()["lawson_2_1"])[2]
+    >>> report.faces, report.repair
+    (1536, ())
     """
 
     file: str

@@ -118,7 +118,7 @@ def _places(V: Floats, used: Ints, tolerance: float) -> Ints:
     if tolerance == 0.0 or used.size == 0:
         return place
     spots, which = np.unique(place[used], return_inverse=True)
-    # Squares of the largest coordinates are no infinities so.
+    # Squares of the largest coordinates are not infinities so.
     scale = float(np.abs(V[spots]).max()) or 1.0
     near = min(_NEIGHBOURS, spots.size)
     distance, index = cKDTree(V[spots] / scale).query(V[spots] / scale, k=[*range(1, near + 1)])

@@ -60,7 +60,7 @@ def read_surface(
 
 @mesh_reader
 def surface_at_path(path: Any) -> tuple[Any, Any] | DeltaComplex | None:
-    """V and F, or the complex, of the file at a path; None of what is no path."""
+    """V and F, or the complex, of the file at a path; None of what is not a path."""
     if not isinstance(path, (str, PathLike)):
         return None
     surface, _ = read_surface(path)

@@ -58,6 +58,12 @@ class SymplecticGroup(Sequence[Ints]):
     ------
     RuntimeError
         If a search did not come to its end: then this is not the group.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> ip.symplectic_automorphism_group([[1j]], tolerance=1e-9).order
+    4
     """
 
     elements: Isomorphisms
@@ -107,7 +113,7 @@ class SymplecticGroup(Sequence[Ints]):
         Raises
         ------
         ValueError
-            If the elements are no group: see ``generators``.
+            If the elements are not a group: see ``generators``.
         """
         return group_of_matrices(list(self.elements))
 
@@ -158,7 +164,7 @@ class SymplecticGroup(Sequence[Ints]):
         Raises
         ------
         ValueError
-            If the elements are no group: under a large tolerance, transformations that only
+            If the elements are not a group: under a large tolerance, transformations that only
             nearly fix Π need not compose.
         """
         members = {gamma.tobytes() for gamma in self.elements}

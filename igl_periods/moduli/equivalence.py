@@ -90,6 +90,13 @@ class Isomorphisms(list[Ints]):
         limit stopped it.  Nothing follows from what is not in an incomplete list.
     gave_up : str
         Which work limit stopped the search; empty if none did.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> found = ip.symplectic_isomorphisms([[1j]], [[1j]], 1e-9)
+    >>> len(found), found.complete
+    (4, True)
     """
 
     def __init__(self, tolerance: float, certified: bool) -> None:
@@ -177,7 +184,7 @@ def symplectic_isomorphisms(
     Raises
     ------
     NotASiegelPointError
-        If an argument is no point of the Siegel upper half-space.
+        If an argument is not a point of the Siegel upper half-space.
     ValueError
         If the genera differ, the tolerance is not positive or too large to separate anything, or
         there is no tolerance: an uncertified PeriodMatrix has none.  If an option has no such

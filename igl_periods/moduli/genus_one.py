@@ -47,7 +47,7 @@ def j_invariant(Pi: ArrayLike | PointInBalls) -> complex | flint.acb:
     Raises
     ------
     ValueError
-        If Π is not 1 × 1 (NotASiegelPointError if it is no point of the upper half-plane).
+        If Π is not 1 × 1 (NotASiegelPointError if it is not a point of the upper half-plane).
 
     Examples
     --------

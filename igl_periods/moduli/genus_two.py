@@ -52,7 +52,7 @@ def rosenhain_roots(Pi: ArrayLike | PointInBalls) -> Complexes | list[flint.acb]
     ------
     ValueError
         If Π has another genus, or is (within its error) the period matrix of a product of two
-        elliptic curves, which is no curve of genus 2.
+        elliptic curves, which is not a curve of genus 2.
 
     References
     ----------

@@ -40,7 +40,7 @@ def hyperelliptic_point(Pi: ArrayLike) -> Complexes:
     Raises
     ------
     ValueError
-        If Π has another genus (NotASiegelPointError if it is no point of the half-space), or
+        If Π has another genus (NotASiegelPointError if it is not a point of the half-space), or
         Newton's method leaves the half-space or does not converge.
 
     Examples

@@ -52,7 +52,7 @@ def theta_derivatives(Pi: ArrayLike) -> Complexes:
     Raises
     ------
     NotASiegelPointError
-        If Π is no point of the Siegel upper half-space.
+        If Π is not a point of the Siegel upper half-space.
     EnumerationLimitError
         If Im Π is so small that the series has too many terms; Siegel reduce it.
 
@@ -70,7 +70,7 @@ def j_derivative(Pi: ArrayLike) -> complex:
     Raises
     ------
     ValueError
-        If Π is not 1 × 1 (NotASiegelPointError if it is no point of the upper half-plane).
+        If Π is not 1 × 1 (NotASiegelPointError if it is not a point of the upper half-plane).
 
     Examples
     --------

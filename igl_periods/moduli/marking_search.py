@@ -67,7 +67,7 @@ def nearest_marking(Pi: ArrayLike, other: ArrayLike) -> NearestMarking:
     Raises
     ------
     NotASiegelPointError
-        If one of them is no point of the Siegel upper half-space.
+        If one of them is not a point of the Siegel upper half-space.
     ValueError
         If they have different genus.
 

@@ -29,7 +29,7 @@ from numpy.typing import ArrayLike
 from igl_periods.recognition import reduced_relations, square_part
 from igl_periods.siegel import check_siegel_point
 
-# An expected number of coincidences above this is no evidence.
+# An expected number of coincidences above this is not evidence.
 _LARGEST_COINCIDENCE = 1e-3
 _ARRAY_ERROR = 1e-12
 # Powers of doubles are exact, or nearly so, with this precision.
@@ -123,7 +123,7 @@ def recognise_entries(
     Raises
     ------
     NotASiegelPointError
-        If Π is no point of the Siegel upper half-space.
+        If Π is not a point of the Siegel upper half-space.
 
     Examples
     --------

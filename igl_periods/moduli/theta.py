@@ -66,7 +66,7 @@ def theta_constants(Pi: ArrayLike | PointInBalls) -> Complexes | flint.acb_mat:
     Raises
     ------
     NotASiegelPointError
-        If Π is no point of the Siegel upper half-space.
+        If Π is not a point of the Siegel upper half-space.
 
     Examples
     --------
@@ -102,7 +102,7 @@ def vanishing_even_characteristics(
     Raises
     ------
     NotASiegelPointError
-        If Π is no point of the Siegel upper half-space.
+        If Π is not a point of the Siegel upper half-space.
     ValueError
         If Π is a ``PeriodMatrix`` without a certificate.
     """
@@ -132,6 +132,14 @@ def is_hyperelliptic(Pi: ArrayLike | PointInBalls) -> bool | None:
     ------
     NotASiegelPointError, ValueError
         As :func:`vanishing_even_characteristics`.
+
+    Examples
+    --------
+    Every curve of genus 2 is.
+
+    >>> import igl_periods as ip
+    >>> ip.is_hyperelliptic([[2j, 0.5], [0.5, 2j]])
+    True
     """
     genus = len(check_siegel_point(Pi))
     if genus < 3:

@@ -114,7 +114,7 @@ class Plan:
 
 @dataclass(frozen=True)
 class Limits:
-    """The most unknowns and bytes that an attempt may take; None where nobody set a limit."""
+    """The most unknowns and bytes that an attempt may take; None without a limit."""
 
     unknowns: float | None
     memory: float | None

@@ -113,6 +113,14 @@ def refined_period_matrix(
         If ``bound`` is not positive, ``largest`` no integer or ``local`` neither True nor False.
     ComplexError
         If the surface is not closed, oriented and connected.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> K = ip.surfaces.square_tiled_surface("omega_1", n=2)
+    >>> refined = ip.refined_period_matrix(K, 0.05)
+    >>> refined.period_matrix.bound <= 0.05
+    True
     """
     bound = checked_number("the wanted bound", bound)
     if not bound > 0:

@@ -30,11 +30,11 @@ def checked_options(
     degree = _checked_degree(degree)
     tolerance = checked_tolerance(tolerance)
     if weights == "extrinsic" and (degree != 1 or tolerance is not None):
-        raise ValueError("extrinsic weights have degree 1 and no bound: leave both options away.")
+        raise ValueError("extrinsic weights have degree 1 and no bound: leave both options out.")
     if weights == "extrinsic" and rigorous:
         raise ValueError("extrinsic weights have no bound that could be proved: rigorous=True.")
     if degree != 1 and tolerance is not None:
-        raise ValueError("a tolerance chooses the degree: leave one of the two away.")
+        raise ValueError("a tolerance chooses the degree: leave one of the two out.")
     return degree, tolerance
 
 

@@ -96,7 +96,7 @@ def period_matrix(
     Raises
     ------
     MeshError
-        If V and F are no triangulated surface (:meth:`DeltaComplex.from_mesh`).
+        If V and F are not a triangulated surface (:meth:`DeltaComplex.from_mesh`).
     ComplexError
         If the surface is not closed, oriented and connected, its triangles are too degenerate, or
         the weights define no positive definite energy; with ``rigorous``, if rounding leaves
@@ -190,6 +190,17 @@ def period_matrix_from_weights(rho: ArrayLike, twin: ArrayLike) -> PeriodMatrix:
     ComplexError
         If the gluing or the weights are malformed, weights differ on glued sides, the surface is
         not closed and connected, or the energy is not positive definite.
+
+    Examples
+    --------
+    The square torus of two triangles: its diagonal has the weight 0.
+
+    >>> import igl_periods as ip
+    >>> import numpy as np
+    >>> twin = [[3, 4, 5], [0, 1, 2]]
+    >>> pm = ip.period_matrix_from_weights(np.tile([0.0, 1.0, 1.0], (2, 1)), twin)
+    >>> pm.reduced().matrix.round(9), pm.bound
+    (array([[0.+1.j]]), None)
     """
     K = DeltaComplex.from_gluing(np.ones(np.shape(twin)), twin)
     return _uncertified(K, edge_weights(K, rho))

@@ -75,6 +75,14 @@ class Extrapolation(ReadOnlyArrays):
     period_matrices : tuple of PeriodMatrix
         Those of the meshes, in the marking of the finest one; their ``bound`` is a certificate for
         the mesh, and says nothing about the smooth surface.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> from igl_periods.surfaces import torus_of_revolution
+    >>> found = ip.richardson(lambda n: torus_of_revolution(2.0, 1.0, 2 * n, n), [6, 12, 24])
+    >>> found.order > 1.5
+    True
     """
 
     matrix: Complexes
@@ -164,6 +172,19 @@ def sampled_torus(immersion: Callable[[Floats, Floats], Floats], aspect: float =
         Takes arrays u, v of shape (k,), periodic with period 1 in both, to points (k, d).
     aspect : float
         The mesh for n has n vertices in the direction of u and ``round(aspect n)`` in that of v.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> import numpy as np
+    >>> def immersion(x, y):
+    ...     s, t = 2 * np.pi * x, 2 * np.pi * y
+    ...     r = 2 + np.cos(t)
+    ...     return np.stack([r * np.cos(s), r * np.sin(s), np.sin(t)], axis=-1)
+    ...
+    >>> V, F = ip.sampled_torus(immersion)(8)
+    >>> len(V), len(F)
+    (64, 128)
     """
 
     def mesh(n: int) -> Mesh:

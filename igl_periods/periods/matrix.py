@@ -38,10 +38,6 @@ is a rule, and where the bound is wanted *proved* it is replaced by balls
 
 This is about the conformal structure of the *polyhedral* surface, whose triangles have the stored
 side lengths; it says nothing about a smooth surface that a mesh samples.
-
-References
-----------
-Bobenko, Mercat, Schmies, "Period matrices of polyhedral surfaces", section 3.
 """
 
 from __future__ import annotations
@@ -58,7 +54,14 @@ from scipy.sparse import csr_array
 
 from igl_periods.arrays import Complexes, Floats, Ints
 from igl_periods.complexes import DeltaComplex
-from igl_periods.display import matrix_html, matrix_latex, matrix_lines, paragraph_html, rounded_up
+from igl_periods.display import (
+    Shown,
+    matrix_html,
+    matrix_latex,
+    matrix_lines,
+    paragraph_html,
+    rounded_up,
+)
 from igl_periods.errors import ComplexError, NotASiegelPointError, NotPositiveDefiniteError
 from igl_periods.harmonic import energy_factor
 from igl_periods.options import in_words
@@ -95,7 +98,7 @@ class Proof(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class PeriodMatrix(Differentiable):
+class PeriodMatrix(Shown, Differentiable):
     """A period matrix with its certificate and its marking.
 
     ``numpy.asarray(pm)`` is ``pm.matrix``.  All arrays are read-only.
@@ -116,6 +119,14 @@ class PeriodMatrix(Differentiable):
         Energies in balls, with which the bound is proved.
     forms : SolvedForms or None
         The harmonic forms, where they were kept for derivatives (``keep_forms=True``).
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> ip.period_matrix(ip.surfaces.square_tiled_surface("omega_3", n=2)).reduced()
+    PeriodMatrix of genus 2, bound 0.0826
+       1.2 i   -0.6 i
+      -0.6 i    1.2 i
     """
 
     dirichlet: Floats
@@ -254,7 +265,7 @@ class PeriodMatrix(Differentiable):
         Raises
         ------
         ValueError
-            If gamma is no integer symplectic matrix of this size.
+            If gamma is not an integer symplectic matrix of this size.
         ComplexError
             If it is so large that no digits of the energies would be left.
         """

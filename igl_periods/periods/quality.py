@@ -131,7 +131,7 @@ def _degrees(angles: Floats) -> str:
 
 @of_a_surface
 def mesh_quality(K: DeltaComplex) -> MeshQuality:
-    """Measure what decides about the accuracy of the period matrix.
+    """What the accuracy of a period matrix depends on: angles, flips, shares of the bound.
 
     Parameters
     ----------
@@ -142,6 +142,14 @@ def mesh_quality(K: DeltaComplex) -> MeshQuality:
     ------
     ComplexError
         If it is not.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> V, F = ip.surfaces.torus_of_revolution(2.0, 1.0, 12, 8)
+    >>> K = ip.DeltaComplex.from_mesh(V, F)
+    >>> ip.mesh_quality(K)
+    MeshQuality(bound 0.0286, angles 27.3° to 104°, 0 flips)
     """
     cocycles = cohomology_basis(K)
     L, rounds = delaunay_flips(K)

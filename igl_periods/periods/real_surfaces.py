@@ -48,7 +48,16 @@ def real_structure(pm: PeriodMatrix) -> Ints:
     Raises
     ------
     ComplexError
-        If ``pm.complex`` is no double.
+        If ``pm.complex`` is not a double.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> V, F = ip.surfaces.planar_domain([0, 4, 4 + 4j, 4j], [[1 + 1j, 3 + 1j, 3 + 3j, 1 + 3j]])
+    >>> pm = ip.period_matrix(ip.double(ip.DeltaComplex.from_mesh(V, F)))
+    >>> ip.real_structure(pm)
+    array([[-1,  0],
+           [ 0,  1]])
     """
     check_period_matrix(pm)
     g = pm.genus

@@ -1,9 +1,9 @@
 """A flat surface as its polygons in the plane, drawn as an SVG file.
 
 Glued sides have the same letter and colour, with a prime where the second one is glued by a
-rotation that is no translation.  Vertices of the surface are dots of one colour each, hollow where
-the total angle is 2π; the legend tells the angles.  Polygons that overlap in their own coordinates
-are drawn one beside the other.
+rotation that is not a translation.  Vertices of the surface are dots of one colour each, hollow
+where the total angle is 2π; the legend tells the angles.  Polygons that overlap in
+their own coordinates are drawn one beside the other.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ def render_polygons(K: DeltaComplex, path: str | PathLike[str], *, width: int = 
 
 def _picture(K: DeltaComplex, width: int) -> ET.Element:
     assert K.polygons is not None
-    placed, apart = _laid_out([polygon.copy() for polygon in K.polygons.xy])
+    placed, apart = laid_out([polygon.copy() for polygon in K.polygons.xy])
     corners = np.concatenate(placed)
     low, high = corners.min(axis=0), corners.max(axis=0)
     margin = 44.0
@@ -94,7 +94,7 @@ def _picture(K: DeltaComplex, width: int) -> ET.Element:
     return svg
 
 
-def _laid_out(polygons: list[Floats]) -> tuple[list[Floats], bool]:
+def laid_out(polygons: list[Floats]) -> tuple[list[Floats], bool]:
     """The polygons where they are, or side by side if their boxes overlap; and whether so."""
     boxes = [(p.min(axis=0), p.max(axis=0)) for p in polygons]
     size = max(float((high - low).max()) for low, high in boxes)

@@ -94,6 +94,13 @@ class AlgebraicNumber:
         The root next to this one is meant.
     evidence : Evidence or None
         None if the number is exact by itself.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> golden = ip.recognize(1.6180339887498949)
+    >>> golden.polynomial, str(golden)
+    ((-1, -1, 1), '(1 + √5)/2')
     """
 
     polynomial: tuple[int, ...]

@@ -23,6 +23,12 @@ class RecognisedMatrix:
     ----------
     entries : tuple of rows
         Each entry an :class:`AlgebraicNumber`, or None where nothing was recognised.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> print(ip.recognize([[0.5, 0.7071067811865476]]))
+    1/2   √2/2
     """
 
     entries: tuple[tuple[AlgebraicNumber | None, ...], ...]

@@ -68,8 +68,8 @@ def recognize(
     Raises
     ------
     ValueError
-        If a number is not finite, the degree or ``digits`` not positive, or this is no number and
-        no matrix.
+        If a number is not finite, the degree or ``digits`` not positive, or this is neither a
+        number nor a matrix.
 
     Examples
     --------

@@ -42,6 +42,13 @@ class NumberField:
     ----------
     generator : AlgebraicNumber
         θ; 0 for the rational numbers.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> field = ip.NumberField(ip.recognize(1.4142135623730951))
+    >>> field.degree
+    2
     """
 
     generator: AlgebraicNumber

@@ -44,6 +44,13 @@ class SpinStructure:
     ----------
     a, b : tuple of int
         g digits 0 or 1 each: the characteristic is (a/2, b/2).
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> s = ip.SpinStructure((0, 1), (1, 1))
+    >>> s.is_even
+    False
     """
 
     a: tuple[int, ...]
@@ -79,7 +86,7 @@ class SpinStructure:
         Raises
         ------
         ValueError
-            If there is another number of coefficients, or they are no integers.
+            If there is another number of coefficients, or they are not integers.
         """
         x = np.asarray(cycle)
         if x.shape != (2 * self.genus,) or x.dtype.kind not in "iu":
@@ -103,7 +110,7 @@ class SpinStructure:
         Raises
         ------
         ValueError
-            If gamma is no integer symplectic matrix of this size.
+            If gamma is not an integer symplectic matrix of this size.
         """
         g, matrix = self.genus, check_symplectic(gamma, self.genus)
         A, B, C, D = matrix[:g, :g], matrix[:g, g:], matrix[g:, :g], matrix[g:, g:]
@@ -148,7 +155,7 @@ def twice_characteristic(characteristic: Any, genus: int) -> tuple[list[int], li
     Raises
     ------
     ValueError
-        If it is no pair of g half integers each.
+        If it is not a pair of g half integers each.
     """
     if characteristic is None:
         return [0] * genus, [0] * genus
@@ -157,7 +164,7 @@ def twice_characteristic(characteristic: Any, genus: int) -> tuple[list[int], li
     try:
         halves = [[Fraction(x) for x in part] for part in characteristic]
     except (TypeError, ValueError) as error:
-        raise ValueError(f"this is no characteristic (a, b): {characteristic!r}") from error
+        raise ValueError(f"this is not a characteristic (a, b): {characteristic!r}") from error
     if len(halves) == 1 or {len(part) for part in halves} != {genus} or len(halves) != 2:
         raise ValueError(
             f"a characteristic of genus {genus} is a pair of {genus} numbers each, not "

@@ -65,7 +65,7 @@ def theta(Pi: Any, z: Any = 0, characteristic: Any = None, *, derivatives: int =
     Raises
     ------
     NotASiegelPointError
-        If Π is no point of the Siegel upper half-space.
+        If Π is not a point of the Siegel upper half-space.
     ValueError
         If z or the characteristic do not belong to genus g, or the order is none of these.
     EnumerationLimitError

@@ -27,7 +27,13 @@ def to_flint(Pi: ArrayLike | PointInBalls) -> flint.acb_mat:
     Raises
     ------
     NotASiegelPointError
-        If Π is no point of the Siegel upper half-space.
+        If Π is not a point of the Siegel upper half-space.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> ip.to_flint([[0.5 + 1j]])
+    [0.500000000000000 + 1.00000000000000j]
     """
     matrix = check_siegel_point(Pi)
     balls = balls_of(Pi)

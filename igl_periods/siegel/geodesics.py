@@ -41,9 +41,15 @@ def siegel_logarithm(Pi: ArrayLike, target: ArrayLike) -> Complexes:
     Raises
     ------
     NotASiegelPointError
-        If one of them is no point of the half-space.
+        If one of them is not a point of the half-space.
     ValueError
         If they have different genus.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> ip.siegel_logarithm([[1j]], [[2j]]).round(9)
+    array([[0.+0.69314718j]])
     """
     start, end = check_same_genus(Pi, target)
     L, Z = _disk_point(start, end)
@@ -57,9 +63,15 @@ def siegel_exponential(Pi: ArrayLike, velocity: ArrayLike) -> Complexes:
     Raises
     ------
     NotASiegelPointError
-        If Π is no point of the half-space.
+        If Π is not a point of the half-space.
     ValueError
         If the velocity has another shape.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> ip.siegel_exponential([[1j]], ip.siegel_logarithm([[1j]], [[2j]])).round(9)
+    array([[0.+2.j]])
     """
     start = check_siegel_point(Pi)
     tangent = np.asarray(velocity, dtype=np.complex128)
@@ -91,7 +103,7 @@ def moduli_path(Pi1: ArrayLike, Pi2: ArrayLike, n: int) -> Complexes:
     Raises
     ------
     NotASiegelPointError
-        If one of them is no point of the half-space.
+        If one of them is not a point of the half-space.
     ValueError
         If they have different genus, or n < 2.
 
@@ -118,7 +130,7 @@ def orthonormal_weights(Pi: ArrayLike) -> Complexes:
     Raises
     ------
     NotASiegelPointError
-        If Π is no point of the half-space.
+        If Π is not a point of the half-space.
     """
     inverse = np.linalg.inv(np.linalg.cholesky(check_siegel_point(Pi).imag))
     g = len(inverse)

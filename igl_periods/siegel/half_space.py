@@ -37,7 +37,7 @@ _LARGEST_ENTRY = int(np.iinfo(np.int64).max)
 
 
 def check_siegel_point(Pi: ArrayLike | PointInBalls) -> Complexes:
-    """Return Π as a symmetric complex array, or raise if it is no point of the half-space.
+    """Return Π as a symmetric complex array, or raise if it is not a point of the half-space.
 
     Parameters
     ----------
@@ -139,7 +139,7 @@ def siegel_transform(gamma: ArrayLike, Pi: ArrayLike | PointInBalls) -> Complexe
         If γ is not integer, has entries beyond 64 bits or another size than Π asks for, or is not
         symplectic (exactly).
     NotASiegelPointError
-        If Π is no point of the Siegel upper half-space.
+        If Π is not a point of the Siegel upper half-space.
 
     Examples
     --------
@@ -198,7 +198,7 @@ def siegel_distance(Pi1: ArrayLike | PointInBalls, Pi2: ArrayLike | PointInBalls
     Raises
     ------
     NotASiegelPointError
-        If one of them is no point of the Siegel upper half-space.
+        If one of them is not a point of the Siegel upper half-space.
     ValueError
         If they have different genus.
 

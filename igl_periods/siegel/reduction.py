@@ -83,6 +83,13 @@ class SiegelReduction(NamedTuple):
         γ · Π.
     gamma : (2g, 2g) int
         Integer symplectic, exactly.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> matrix, gamma = ip.siegel_reduce([[5 + 0.5j]])
+    >>> matrix, gamma.tolist()
+    (array([[0.+2.j]]), [[0, -1], [1, -5]])
     """
 
     matrix: Complexes
@@ -159,7 +166,7 @@ def siegel_reduce(
     Raises
     ------
     NotASiegelPointError
-        If Π is no point of the Siegel upper half-space, or so close to its boundary that γ would
+        If Π is not a point of the Siegel upper half-space, or so close to its boundary that γ would
         not fit into 64-bit integers.
     ValueError
         If its genus is larger than ``max_genus``.

@@ -143,7 +143,7 @@ def _checked_branching(
     if np.any(m % n == 0):
         raise ComplexError(
             f"multiplicity {m[np.argmax(m % n == 0)]} is a multiple of n = {n}: leave out that "
-            "point, it is no branch point."
+            "point, it is not a branch point."
         )
     if (common := gcd(n, *m.tolist())) > 1:
         raise ComplexError(

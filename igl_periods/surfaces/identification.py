@@ -106,6 +106,13 @@ class Identification(Sequence[Match]):
         Those for which the search was given up.
     radius : float
         The deviation up to which surfaces are listed.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> found = ip.identify([[1j]])
+    >>> [match.surface.name for match in found]
+    ['square torus']
     """
 
     matches: tuple[Match, ...]
@@ -188,7 +195,7 @@ def identify(Pi: Any, F: Any = None, tolerance: float | None = None) -> Identifi
     Raises
     ------
     NotASiegelPointError
-        If Π is no point of the Siegel upper half-space.
+        If Π is not a point of the Siegel upper half-space.
     ValueError
         If the tolerance is negative, or with the certificate's too large to separate anything.
 

@@ -70,7 +70,7 @@ class NamedSurface(ReadOnlyArrays):
         Raises
         ------
         ValueError
-            If ``digits`` is no integer, or less than 1.
+            If ``digits`` is not an integer, or less than 1.
 
         Examples
         --------

@@ -52,7 +52,7 @@ def catalogue(genus: int | None = None) -> list[NamedSurface]:
     Raises
     ------
     ValueError
-        If the genus is no integer, negative, or beyond a million.
+        If the genus is not an integer, negative, or beyond a million.
 
     Examples
     --------

@@ -31,7 +31,7 @@ def checked_permutation(images: ArrayLike, what: str) -> Ints:
         raise ComplexError(f"{what} must be a list of integers, not an array {array.shape}.")
     if not np.array_equal(np.sort(array), np.arange(array.size)):
         raise ComplexError(
-            f"{what} is no permutation of 0, …, {array.size - 1}: {array.tolist()[:12]}."
+            f"{what} is not a permutation of 0, …, {array.size - 1}: {array.tolist()[:12]}."
         )
     return array.astype(np.int64)
 
@@ -47,7 +47,7 @@ def read_permutations(given: Mapping[str, str | ArrayLike]) -> list[Ints]:
     Raises
     ------
     ComplexError
-        If one is no permutation, or they permute different numbers of things.
+        If one is not a permutation, or they permute different numbers of things.
 
     Examples
     --------
@@ -75,7 +75,7 @@ def read_permutations(given: Mapping[str, str | ArrayLike]) -> list[Ints]:
 def _cycles(text: str, what: str) -> list[list[int]]:
     """The cycles of a text, counted from 0."""
     if not re.fullmatch(r"(\s*\((\s*\d+\s*([,\s]\s*\d+\s*)*)?\))*\s*", text):
-        raise ComplexError(f'{what} is no product of cycles like "(1,2,3)(4,5)": {text!r}.')
+        raise ComplexError(f'{what} is not a product of cycles like "(1,2,3)(4,5)": {text!r}.')
     cycles = [[int(x) - 1 for x in re.findall(r"\d+", c)] for c in re.findall(r"\(([^)]*)\)", text)]
     named = [i for cycle in cycles for i in cycle]
     if named and min(named) < 0:

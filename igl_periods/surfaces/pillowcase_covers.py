@@ -52,7 +52,7 @@ def pillowcase_cover(
     Raises
     ------
     ComplexError
-        If they are no permutations of the same sheets, their product (first g0, then g1, …) is not
+        If they are not permutations of the same sheets, their product (first g0, then g1, …) is not
         1, the cover is not connected, or ``n < 1``.
 
     Examples

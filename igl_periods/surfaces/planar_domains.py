@@ -10,7 +10,7 @@ those of the holes in their order.  Where triangles would be thin, points are ad
 the interior (:mod:`~igl_periods.surfaces.plane_triangulation`): the surface is flat there, and does
 not change.
 
-What is no domain is refused, with the place: sides that cross or touch, corners at which the
+What is not a domain is refused, with the place: sides that cross or touch, corners at which the
 boundary runs back along itself (a slit has two sides, and no mesh in the plane keeps them apart),
 holes that are not inside.
 """
@@ -27,7 +27,7 @@ from igl_periods.errors import MeshError
 
 from .plane_triangulation import Quality, triangulated, turn
 
-# In parts of the size of the domain: what is no distance.
+# In parts of the size of the domain: what is not a distance.
 _TOUCHING = 1e-9
 _LARGEST_ANGLE = 30.0
 _PAIRS_AT_ONCE = 2**21
@@ -112,7 +112,7 @@ def _corners(ring: Any, name: str) -> Floats:
     try:
         given = np.asarray(ring if hasattr(ring, "__array__") else list(ring))
     except (TypeError, ValueError) as error:
-        raise MeshError(f"{name} is no list of corners: {error}.") from error
+        raise MeshError(f"{name} is not a list of corners: {error}.") from error
     if given.ndim == 1 and given.dtype.kind in "iufc":
         z = given.astype(np.complex128)
         given = np.stack([z.real, z.imag], axis=1)

@@ -168,7 +168,7 @@ def regular_map(rotation: ArrayLike, flip: ArrayLike, n: int = 1) -> DeltaComple
     identity = tuple(range(len(t)))
     if t == identity or composed(t, t) != identity:
         raise ComplexError(
-            f"the flip {t} is no involution: gluing a side to another one twice must lead back."
+            f"the flip {t} is not an involution: gluing a side to another one twice must lead back."
         )
     polygon, side, glued = _darts(r, t)
     k = int(side.max()) + 1

@@ -41,7 +41,7 @@ def triangle_unfolding(a: int, b: int, c: int) -> DeltaComplex:
     Raises
     ------
     ComplexError
-        If they are no positive integers, or add up to more than 200.
+        If they are not positive integers, or add up to more than 200.
 
     Examples
     --------

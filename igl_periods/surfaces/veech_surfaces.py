@@ -188,7 +188,7 @@ def prototype_surface(a: int, b: int, c: int, e: int) -> DeltaComplex:
     Raises
     ------
     ComplexError
-        If (a, b, c, e) is no prototype.
+        If (a, b, c, e) is not a prototype.
 
     Examples
     --------
@@ -199,8 +199,9 @@ def prototype_surface(a: int, b: int, c: int, e: int) -> DeltaComplex:
     D = e * e + 4 * b * c
     if not (b > 0 and c > 0 and (a, b, c, e) in weierstrass_prototypes(D)):
         raise ComplexError(
-            f"(a, b, c, e) = ({a}, {b}, {c}, {e}) is no prototype: b, c > 0, 0 <= a < gcd(b, c), "
-            "c + e < b and gcd(a, b, c, e) = 1 are needed. weierstrass_prototypes(D) lists them."
+            f"(a, b, c, e) = ({a}, {b}, {c}, {e}) is not a prototype: b, c > 0, 0 <= a < gcd(b, "
+            "c), c + e < b and gcd(a, b, c, e) = 1 are needed. "
+            "weierstrass_prototypes(D) lists them."
         )
     root = math.isqrt(D)
     surd = Fraction(root) if root * root == D else algebraic_number([-D, 0, 1], math.sqrt(D))

@@ -106,6 +106,13 @@ def cohomology_basis(K: DeltaComplex, root: int = 0) -> csr_array:
     ------
     ComplexError
         If the surface is not closed, oriented and connected.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> K = ip.surfaces.square_tiled_surface("omega_1", n=2)
+    >>> ip.cohomology_basis(K).shape == (2 * K.genus, K.n_edges)
+    True
     """
     cochains, T = cochains_and_basis(K, root)
     return (csr_array(T.astype(np.int64)) @ cochains).tocsr()

@@ -23,7 +23,7 @@ def cut_to_disk(K: DeltaComplex) -> tuple[Bools, Ints, Ints]:
     Parameters
     ----------
     K : DeltaComplex
-        Closed, oriented, connected, of genus ≥ 1; gluings that are no mesh are allowed.
+        Closed, oriented, connected, of genus ≥ 1; gluings that are not meshes are allowed.
 
     Returns
     -------

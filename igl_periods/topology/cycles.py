@@ -48,6 +48,16 @@ def homology_basis(K: DeltaComplex, root: int = 0) -> list[Ints]:
     ------
     ComplexError
         If the surface is not closed, oriented and connected.
+
+    Examples
+    --------
+    Four closed walks, a_1, a_2, b_1, b_2, along half-edges.
+
+    >>> import igl_periods as ip
+    >>> K = ip.surfaces.square_tiled_surface("omega_1", n=2)
+    >>> walks = ip.homology_basis(K)
+    >>> len(walks)
+    4
     """
     check_closed_and_oriented(K)
     trees = tree_cotree(K, root)

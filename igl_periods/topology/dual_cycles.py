@@ -51,6 +51,13 @@ def dual_homology_basis(K: DeltaComplex, root: int = 0) -> list[Ints]:
     ------
     ComplexError
         If the surface is not closed, oriented and connected.
+
+    Examples
+    --------
+    >>> import igl_periods as ip
+    >>> K = ip.surfaces.square_tiled_surface("omega_1", n=2)
+    >>> len(ip.dual_homology_basis(K))
+    4
     """
     return [dual_walk(K, walk) for walk in homology_basis(K, root)]
 

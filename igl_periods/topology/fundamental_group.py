@@ -78,7 +78,7 @@ class FundamentalPolygon(ReadOnlyArrays):
 
 @of_a_surface
 def fundamental_polygon(K: DeltaComplex, trees: TreeCotree | None = None) -> FundamentalPolygon:
-    """Cut a surface open along a tree and the edges that are left over.
+    """Cut a surface open along a tree and the edges that are left over: a 4g-gon.
 
     Parameters
     ----------
@@ -135,12 +135,21 @@ def shortest_loops(
     Raises
     ------
     ComplexError
-        If the surface is not closed, oriented and connected, ``root`` is no vertex, or edge
+        If the surface is not closed, oriented and connected, ``root`` is not a vertex, or edge
         lengths are not positive and finite.
 
     References
     ----------
     Erickson, Whittlesey, "Greedy optimal homotopy and homology generators" (2005).
+
+    Examples
+    --------
+    As many as the fundamental group has generators.
+
+    >>> import igl_periods as ip
+    >>> K = ip.surfaces.square_tiled_surface("omega_1", n=2)
+    >>> len(ip.shortest_loops(K))
+    4
     """
     lengths = checked_edge_lengths(K, edge_lengths)
     trees = shortest_tree_cotree(K, root, lengths)

@@ -68,7 +68,9 @@ def tree_cotree(K: DeltaComplex, root: int = 0) -> TreeCotree:
     """
     root = checked_integer("root", root)
     if not 0 <= root < K.n_vertices:
-        raise ValueError(f"root = {root} is no vertex: there are {K.n_vertices}, counted from 0.")
+        raise ValueError(
+            f"root = {root} is not a vertex: there are {K.n_vertices}, counted from 0."
+        )
     index = index_type(3 * K.n_faces)
     half_edge = np.arange(3 * K.n_faces + 1, dtype=index)
     tail, head = (end.astype(index) for end in half_edge_ends(K))

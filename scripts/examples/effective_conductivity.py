@@ -1,4 +1,6 @@
-"""Effective conductivities of periodic sheets, and what the period matrix has to do with them.
+"""
+Effective conductivities of periodic sheets
+===========================================
 
 A torus in space with the period matrix τ conducts like a flat one: as a tensor in the plane of the
 lattice, of determinant 1.  Perforated plates have holes that insulate or conduct, and the two are

@@ -1,7 +1,11 @@
-"""The period matrix as a function that JAX can differentiate, also compiled.
+"""
+Π as a function that JAX can differentiate
+==========================================
 
-Pi = period_matrix_of(F, genus)           # a function of V: (2, g, g), real and imaginary parts
-jax.grad(lambda V: Pi(V)[1].trace())(V)
+The period matrix as a function that JAX can differentiate, also compiled::
+
+    Pi = period_matrix_of(F, genus)           # a function of V: (2, g, g), real and imaginary parts
+    jax.grad(lambda V: Pi(V)[1].trace())(V)
 """
 
 import jax

@@ -1,7 +1,11 @@
-"""The period matrix as a function that PyTorch can differentiate.
+"""
+Π as a function that PyTorch can differentiate
+==============================================
 
-Pi = PeriodMatrix.apply(V, F)             # (2, g, g): real and imaginary parts
-Pi[1].diagonal().sum().backward()         # V.grad
+The period matrix as a function that PyTorch can differentiate::
+
+    Pi = PeriodMatrix.apply(V, F)             # (2, g, g): real and imaginary parts
+    Pi[1].diagonal().sum().backward()         # V.grad
 """
 
 import numpy as np

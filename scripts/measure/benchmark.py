@@ -10,8 +10,8 @@ its orderings, and solve for 2g right-hand sides.  Each measurement runs in a pr
     python scripts/measure/benchmark.py genus                        up to genus 1,521
     python scripts/measure/benchmark.py digits eight.off 3holes.obj  certified digits
 
-Results go to ``results/benchmark.json``, one entry a section; ``readme_tables.py`` makes the tables
-of the README from it.
+Results go to ``results/benchmark.json``, one entry a section; ``guide_tables.py`` makes the tables
+of the guide from it.
 """
 
 from __future__ import annotations

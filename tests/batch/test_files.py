@@ -54,7 +54,7 @@ def test_names_that_are_no_text(tmp_path):
     [
         (None, FileNotFoundError, "there is no folder and no list"),
         (b"# nothing\n\n", ip.MeshError, "there is no path in this list"),
-        (b"PAR1\0\0", ip.MeshError, "no folder, no mesh, and no text file"),
+        (b"PAR1\0\0", ip.MeshError, "neither a folder nor a mesh nor a text file"),
     ],
 )
 def test_lists_that_are_none(tmp_path, content, error, message):

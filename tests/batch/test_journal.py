@@ -53,6 +53,6 @@ def test_a_journal_is_written_by_one_run_and_is_no_other_file(journal):
     with Journal(journal), pytest.raises(BlockingIOError, match="another run is writing"):
         Journal(journal)
     journal.write_text("my diary\n")
-    with pytest.raises(FileExistsError, match="is no journal of a batch"):
+    with pytest.raises(FileExistsError, match="is not a journal of a batch"):
         Journal(journal, restart=True)
     assert journal.read_text() == "my diary\n"

@@ -45,8 +45,8 @@ def test_mesh_and_polygon_have_the_same_capacities(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("{}", "no GeoJSON file with a polygon"),
-        ("[1", "no GeoJSON file with a polygon"),
+        ("{}", "not a GeoJSON file with a polygon"),
+        ("[1", "not a GeoJSON file with a polygon"),
         ('{"type": "Point", "coordinates": [0, 0]}', "holds Point: one Polygon is needed"),
         ('{"type": "Polygon", "coordinates": [[[0, 0], [1, 0]]]}', "2 different corners"),
     ],

@@ -1,4 +1,4 @@
-"""Wrong command lines: what was meant, what has no effect; and signs that are no options."""
+"""Wrong command lines: what was meant, what has no effect; and signs that are not options."""
 
 import argparse
 

@@ -47,11 +47,11 @@ def test_gluings_of_a_wrong_shape_or_type():
         ip.DeltaComplex.from_gluing(np.ones((4, 3)), np.zeros(12, dtype=int))
     with pytest.raises(ip.ComplexError, match="twin must be integer"):
         ip.DeltaComplex.from_gluing(np.ones((4, 3)), np.zeros((4, 3)))
-    with pytest.raises(ip.ComplexError, match="twin is no rectangular array"):
+    with pytest.raises(ip.ComplexError, match="twin is not a rectangular array"):
         ip.DeltaComplex.from_gluing(np.ones((4, 3)), [[0, 1, 2], [0]])
-    # −1 is a free side; 2^64 − 1, which has the same bits, is no half-edge.
+    # −1 is a free side; 2^64 − 1, which has the same bits, is not a half-edge.
     unsigned = np.full((1, 3), 2**64 - 1, dtype=np.uint64)
     with pytest.raises(ip.ComplexError, match=r"entries from 18446744073709551615 to"):
         ip.DeltaComplex.from_gluing(np.ones((1, 3)), unsigned)
-    with pytest.raises(ip.ComplexError, match="same is no rectangular array"):
+    with pytest.raises(ip.ComplexError, match="same is not a rectangular array"):
         ip.DeltaComplex.from_gluing(np.ones((2, 3)), np.full((2, 3), -1), [[True], [False, True]])

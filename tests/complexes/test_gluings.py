@@ -39,8 +39,8 @@ def test_unequal_lengths_of_glued_sides():
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        (lambda t: t.__setitem__((0, 0), t[1, 1]), "no involution"),
-        (lambda t: t.__setitem__((0, 0), 0), "no involution without fixed points"),
+        (lambda t: t.__setitem__((0, 0), t[1, 1]), "not an involution"),
+        (lambda t: t.__setitem__((0, 0), 0), "not an involution without fixed points"),
         (lambda t: t.__setitem__((0, 0), 99), "entries from .* to 99"),
         (lambda t: t.__setitem__((0, 0), -2), "entries from -2"),
     ],

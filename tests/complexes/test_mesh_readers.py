@@ -32,7 +32,7 @@ def test_rows_of_different_lengths_are_rows():
     assert has_rows([[1, 2], [3]])
     assert not has_rows([1, 2])
     # A pair with such faces is a pair, and its faces are refused as such.
-    with pytest.raises(MeshError, match="F is no rectangular array"):
+    with pytest.raises(MeshError, match="F is not a rectangular array"):
         ip.period_matrix((V, [[0, 1, 2], [0, 2]]))
 
 
@@ -46,7 +46,7 @@ def test_a_reader_is_asked_about_what_it_knows():
 
     assert vertices_and_faces(Cloud()) == (V, F)
     assert ip.DeltaComplex.from_mesh(Cloud()).n_faces == 1
-    with pytest.raises(MeshError, match="an object of type object is no surface"):
+    with pytest.raises(MeshError, match="an object of type object is not a surface"):
         vertices_and_faces(object())
 
 

@@ -84,7 +84,7 @@ def test_sympy():
     (_, y), rounded = read_point(sympy.exp(sympy.I * sympy.pi / 7))
     assert not rounded
     assert float(y) == pytest.approx(np.sin(np.pi / 7))
-    with pytest.raises(ip.ComplexError, match="x is no real number"):
+    with pytest.raises(ip.ComplexError, match="x is not a real number"):
         exact_number(sympy.Symbol("x"))
 
 
@@ -108,12 +108,12 @@ def test_recognised_numbers():
 @pytest.mark.parametrize(
     ("x", "message"),
     [
-        (True, "True is no number of the plane"),
-        ("one", "'one' is no rational number"),
-        ("1/0", "'1/0' is no rational number"),
+        (True, "True is not a number of the plane"),
+        ("one", "'one' is not a rational number"),
+        ("1/0", "'1/0' is not a rational number"),
         (float("nan"), "nan is not finite"),
         (np.inf, "inf is not finite"),
-        (None, "None is no real number"),
+        (None, "None is not a real number"),
         (flint.arb("nan"), "nan is not finite"),
     ],
 )

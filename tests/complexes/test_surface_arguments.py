@@ -124,19 +124,19 @@ def test_a_function_keeps_its_name_and_its_description():
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ((None,), "None is no surface"),
-        ((3,), "3 is no surface"),
-        ((object(),), "an object of type object is no surface. Hand over V and F"),
-        (({"V": V, "F": F},), "an object of type dict is no surface"),
-        ((b"mesh.off",), "an object of type bytes is no surface"),
+        ((None,), "None is not a surface"),
+        ((3,), "3 is not a surface"),
+        ((object(),), "an object of type object is not a surface. Hand over V and F"),
+        (({"V": V, "F": F},), "an object of type dict is not a surface"),
+        ((b"mesh.off",), "an object of type bytes is not a surface"),
         ((V,), "faces are missing beside an object of type ndarray"),
         ((V, None), "faces are missing"),
         (((V, F, F, F),), "faces are missing"),
         ((V, 3), r"F must have shape \(m, 3\), not \(\)"),
         ((V, "F"), r"F must have shape \(m, 3\), not \(\)"),
         ((V, F[:, :2]), r"F must have shape \(m, 3\)"),
-        ((V, [[0, 1], [2]]), "F is no rectangular array"),
-        (([[0.0], [1.0, 2.0]], F), "V is no rectangular array"),
+        ((V, [[0, 1], [2]]), "F is not a rectangular array"),
+        (([[0.0], [1.0, 2.0]], F), "V is not a rectangular array"),
         ((V.astype(str), F), "V must hold real numbers"),
         ((Mesh(), F), "an object of type Mesh has faces of its own"),
         (((V, F), F), "an object of type tuple has faces of its own"),
@@ -150,7 +150,9 @@ def test_wrong_arguments_get_a_sentence(function, arguments, message):
 
 
 def test_what_belongs_to_a_surface_is_none():
-    with pytest.raises(MeshError, match=r"PeriodMatrix is no surface .* hand over its \.complex"):
+    with pytest.raises(
+        MeshError, match=r"PeriodMatrix is not a surface .* hand over its \.complex"
+    ):
         ip.homology_basis(ip.period_matrix(V, F))
 
 

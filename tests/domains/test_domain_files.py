@@ -76,8 +76,8 @@ def test_svg_upwards_is_upwards(tmp_path):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("{}", "no GeoJSON file with a polygon"),
-        ("[1", "no GeoJSON file with a polygon"),
+        ("{}", "not a GeoJSON file with a polygon"),
+        ("[1", "not a GeoJSON file with a polygon"),
         ('{"type": "Point", "coordinates": [0, 0]}', "holds Point: one Polygon is needed"),
         ('{"type": "FeatureCollection", "features": []}', "holds nothing: one Polygon"),
         (
@@ -85,8 +85,8 @@ def test_svg_upwards_is_upwards(tmp_path):
             "holds Polygon, Polygon: one Polygon",
         ),
         ('{"type": "Feature", "geometry": null}', "holds nothing"),
-        ('{"type": "Polygon", "coordinates": []}', "no GeoJSON file with a polygon"),
-        ('{"type": "Polygon", "coordinates": [[["x", "y"]]]}', "no GeoJSON file with a polygon"),
+        ('{"type": "Polygon", "coordinates": []}', "not a GeoJSON file with a polygon"),
+        ('{"type": "Polygon", "coordinates": [[["x", "y"]]]}', "not a GeoJSON file with a polygon"),
     ],
 )
 def test_geojson_that_is_no_polygon(tmp_path, text, message):
@@ -118,7 +118,7 @@ def test_drawings_of_no_polygon(tmp_path, shapes, message):
 def test_other_files(tmp_path):
     (tmp_path / "none.svg").write_text("hello")
     pytest.importorskip("svgelements")
-    with pytest.raises(ip.MeshError, match="no SVG file"):
+    with pytest.raises(ip.MeshError, match="not an SVG file"):
         read_domain(tmp_path / "none.svg")
     with pytest.raises(ip.MeshError, match=r"in files .geojson and .svg, not in a.obj"):
         read_domain(tmp_path / "a.obj")

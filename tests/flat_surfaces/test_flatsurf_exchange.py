@@ -105,7 +105,7 @@ def test_what_is_no_closed_surface():
         ip.from_flatsurf(Endless({}, []))
     with pytest.raises(ip.ComplexError, match="not glued from polygons with exact coordinates"):
         ip.to_flatsurf_dict(ip.surfaces.origami("(1,2)", "(1,3)", 2))
-    # A similarity that is no isometry.
+    # A similarity that is not an isometry.
     larger = rational([(0, 0), (2, 0), (2, 2), (0, 2)])
     pairs = [(("a", k), ("b", (k + 2) % 4)) for k in range(4)]
     with pytest.raises(ip.ComplexError, match=r"has length 1 and .* 2: they must agree exactly"):

@@ -1,4 +1,4 @@
-"""The double graph: cell decompositions, diagonals that are no edges, refused weights."""
+"""The double graph: cell decompositions, diagonals that are not edges, refused weights."""
 
 import numpy as np
 import pytest

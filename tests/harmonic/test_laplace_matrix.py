@@ -1,4 +1,4 @@
-"""The Laplace matrix, and weights that are no energy."""
+"""The Laplace matrix, and weights that are not an energy."""
 
 import numpy as np
 import pytest

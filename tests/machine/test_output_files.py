@@ -20,7 +20,7 @@ def test_what_cannot_be_written_is_refused(tmp_path):
     (tmp_path / "link.obj").symlink_to(tmp_path / "mesh.obj")
     with pytest.raises(FileNotFoundError, match=r"there is no folder '.*no' for 'x.png'"):
         check_output(tmp_path / "no" / "x.png")
-    with pytest.raises(NotADirectoryError, match=r"mesh.obj' is no folder"):
+    with pytest.raises(NotADirectoryError, match=r"mesh.obj' is not a folder"):
         check_output(tmp_path / "mesh.obj" / "x.png")
     with pytest.raises(IsADirectoryError, match="is a folder"):
         check_output(tmp_path)

@@ -133,7 +133,7 @@ def test_polygons_that_are_not_convex_are_divided_as_those_of_files():
         ip.period_matrix(bow_tie)
 
 
-# ---- What is no mesh of triangles ----
+# ---- What is not a mesh of triangles ----
 
 
 def test_what_is_no_surface_in_trimesh():

@@ -46,7 +46,7 @@ def doubled_areas(V, F):
 
 
 def boundary(F):
-    """Sides of triangles whose reverse is no side."""
+    """Sides of triangles whose reverse is not a side."""
     sides = [(int(a), int(b)) for f in F for a, b in zip(f, np.roll(f, -1))]
     for side in list(sides):
         if side[::-1] in sides and side in sides:

@@ -97,7 +97,7 @@ def test_filled_holes_restore_the_genus():
     assert ip.DeltaComplex.from_mesh(V1, F1).genus == 1
     assert steps[-2].changed == 2
     np.testing.assert_array_equal(V1[: len(V)], V)
-    # However large the coordinates are, their mean is no infinity.
+    # However large the coordinates are, their mean is not an infinity.
     huge, _, _ = repair_mesh(5e307 * V, open_torus, largest_hole=4)
     np.testing.assert_allclose(huge, 5e307 * V1, rtol=0, atol=1e293)
     # The centres of the two loops.

@@ -90,7 +90,7 @@ def test_no_other_place_concludes_from_lists():
 
 
 def test_several_theta_constants_that_may_vanish_decide_nothing():
-    # A product of tori is no curve at all; nine of its even constants vanish.
+    # A product of tori is not a curve at all; nine of its even constants vanish.
     assert is_hyperelliptic(np.diag([1j, 2j, 0.2 + 1.7j])) is None
 
 

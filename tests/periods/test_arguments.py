@@ -18,7 +18,7 @@ def test_arguments_that_are_no_surface():
     with pytest.raises(ip.MeshError, match="faces are missing"):
         ip.period_matrix(np.zeros((4, 3)))
     K = ip.DeltaComplex.from_squares(L_SHAPE)
-    with pytest.raises(ip.MeshError, match="leave F away"):
+    with pytest.raises(ip.MeshError, match="leave F out"):
         ip.period_matrix(K, np.zeros((1, 3), int))
     with pytest.raises(ValueError, match='"intrinsic" or "extrinsic"'):
         ip.period_matrix(K, weights="cotan")

@@ -300,7 +300,7 @@ def test_abstract_weights_that_are_refused(change, message):
         ip.period_matrix_from_weights(rho, K.twin)
     with pytest.raises(ip.ComplexError, match="rho must be a real array"):
         ip.period_matrix_from_weights(rho[:2], K.twin)
-    with pytest.raises(ip.ComplexError, match="rho is no rectangular array"):
+    with pytest.raises(ip.ComplexError, match="rho is not a rectangular array"):
         ip.period_matrix_from_weights([[1.0, 1.0, 1.0], [1.0]], K.twin)
 
 

@@ -63,7 +63,7 @@ def test_halves_and_integers_are_the_same_characteristic():
         (lambda: spin_structures(2, "spin"), "'even' or 'odd'"),
         (lambda: twice_characteristic(([1], [0]), 2), "pair of 2 numbers"),
         (lambda: twice_characteristic(([0.25], [0]), 1), "½ Z"),
-        (lambda: twice_characteristic(5, 1), "no characteristic"),
+        (lambda: twice_characteristic(5, 1), "not a characteristic"),
     ],
 )
 def test_refused(call, message):

@@ -1,4 +1,4 @@
-"""The Siegel upper half-space: action, metric, what is no point of it."""
+"""The Siegel upper half-space: action, metric, what is not a point of it."""
 
 from fractions import Fraction
 

@@ -32,7 +32,7 @@ def test_arrays_of_a_wrong_shape_or_type(images):
 
 @pytest.mark.parametrize("images", [[1, 2], [0, 0], [-1, 0, 1]])
 def test_images_that_are_not_all_numbers_once(images):
-    with pytest.raises(ip.ComplexError, match="up is no permutation of 0, …,"):
+    with pytest.raises(ip.ComplexError, match="up is not a permutation of 0, …,"):
         checked_permutation(images, "up")
 
 
@@ -51,9 +51,9 @@ def test_cycles_are_counted_from_1_and_images_from_0():
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"a": "1,2"}, 'a is no product of cycles like "'),
-        ({"a": "(1,2"}, "a is no product of cycles"),
-        ({"a": "(1,,2)"}, "a is no product of cycles"),
+        ({"a": "1,2"}, 'a is not a product of cycles like "'),
+        ({"a": "(1,2"}, "a is not a product of cycles"),
+        ({"a": "(1,,2)"}, "a is not a product of cycles"),
         ({"a": "(0,1)"}, "a names 0, and cycles are counted from 1"),
         ({"a": "(1,2)(2,3)"}, "a names 2 twice: cycles are disjoint"),
         ({"a": "(1,1000001)"}, "a names 1000001; up to 1000000"),

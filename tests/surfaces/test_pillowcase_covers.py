@@ -61,9 +61,9 @@ def test_the_torus():
     [
         (("(1,2)", "(1,2)", "(1,2)", "(1)(2)"), "the product of the permutations is not 1"),
         (("()", "(1)", "(2)", ""), "the cover is not connected: its sheets fall into 2 parts"),
-        (("(1,2", "(1)", "(2)"), "g0 is no product of cycles"),
+        (("(1,2", "(1)", "(2)"), "g0 is not a product of cycles"),
         (([0, 1], [0, 1, 2], [0, 1]), "g0 permutes 2 things and g1 permutes 3"),
-        (([0, 1], [0, 0], [0, 1]), "g1 is no permutation"),
+        (([0, 1], [0, 0], [0, 1]), "g1 is not a permutation"),
     ],
 )  # fmt: skip
 def test_what_is_no_cover(g, message):

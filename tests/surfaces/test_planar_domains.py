@@ -85,7 +85,7 @@ OUTER = square(0, 0, 4)
         (OUTER, [[1, 1, 1]], "hole 0 has 0 different corners"),
         (OUTER, [[1 + 1j, 2 + 1j, np.nan]], "hole 0 has corners that are not finite.* corner 2"),
         (OUTER, ["abc"], "hole 0 must be corners"),
-        (OUTER, [3], "hole 0 is no list of corners"),
+        (OUTER, [3], "hole 0 is not a list of corners"),
         (np.ones((4, 5)), [], r"the outer boundary must be .* not an array of shape \(4, 5\)"),
         ([0, 2, 2j, 2 + 2j], [], r"meets itself at \(1, 1\)"),
         (OUTER, [square(3, 1, 2)], r"meets itself at \(4, [13]\)"),

@@ -152,8 +152,8 @@ def test_the_prototype_of_discriminant_5_is_the_golden_l_stretched():
         (lambda: l_shape_period_matrix(0.5), "lambda = 0.5"),
         (lambda: weierstrass_prototypes(6), "discriminant = 6: .* 0 or 1 mod 4, from 5 on"),
         (lambda: weierstrass_prototypes(4), "discriminant = 4"),
-        (lambda: prototype_surface(0, 1, 1, 1), r"\(0, 1, 1, 1\) is no prototype"),
-        (lambda: prototype_surface(0, -1, 1, 1), "is no prototype"),
+        (lambda: prototype_surface(0, 1, 1, 1), r"\(0, 1, 1, 1\) is not a prototype"),
+        (lambda: prototype_surface(0, -1, 1, 1), "is not a prototype"),
         (lambda: prototype_surface(0.5, 1, 1, 1), "a must be an integer"),
     ],
 )

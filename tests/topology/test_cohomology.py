@@ -78,7 +78,7 @@ def test_another_root_gives_another_basis_of_the_same_lattice():
 
 @pytest.mark.parametrize("root", [-1, 10**6])
 def test_roots_that_are_no_vertices(root):
-    with pytest.raises(ValueError, match=f"root = {root} is no vertex"):
+    with pytest.raises(ValueError, match=f"root = {root} is not a vertex"):
         ip.cohomology_basis(ip.DeltaComplex.from_squares(BOLZA, 2), root=root)
 
 

@@ -115,3 +115,10 @@ def test_every_public_function_is_documented():
     for name in ip.__all__:
         value = getattr(ip, name)
         assert getattr(value, "__doc__", None) or isinstance(value, int), name
+
+
+def test_every_public_name_has_an_example():
+    for name in ip.__all__:
+        value = getattr(ip, name)
+        if callable(value) and not (isinstance(value, type) and issubclass(value, Exception)):
+            assert ">>> " in value.__doc__, f"{name} has no example in its docstring"

@@ -1,4 +1,4 @@
-"""Files compressed by gzip, and what is no mesh though its name says so."""
+"""Files compressed by gzip, and what is not a mesh though its name says so."""
 
 from __future__ import annotations
 
@@ -31,7 +31,9 @@ def content(file: Path, compressed: bool) -> bytes:
     try:
         data = _decompressed(file) if compressed else file.read_bytes()
     except (EOFError, zlib.error, gzip.BadGzipFile) as error:
-        raise MeshError(f"the file is no gzip file, or truncated or corrupt ({error}).") from error
+        raise MeshError(
+            f"the file is not a gzip file, or truncated or corrupt ({error})."
+        ) from error
     if not data:
         raise MeshError("the file is empty.")
     start = data[:100].lstrip().lower()

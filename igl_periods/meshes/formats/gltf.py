@@ -56,7 +56,7 @@ def mesh_from_gltf(data: bytes, folder: Path) -> MeshFile:
         raise
     except _WRONG as error:
         words = f"{type(error).__name__}: {error}"[:120]
-        raise MeshError(f"the file is no glTF 2.0, truncated or corrupt ({words}).") from error
+        raise MeshError(f"the file is not glTF 2.0, truncated or corrupt ({words}).") from error
     if not parts:
         raise MeshError("there are no triangles in the scene of this file.")
     return mesh_of_triangles(*assembled(parts), warnings=tuple(sorted(warnings)))
@@ -105,7 +105,7 @@ def _matrix(node: dict[str, Any]) -> Floats:
         )
         matrix[:3, 3] = node.get("translation", [0, 0, 0])
     if not np.isfinite(matrix).all() or (matrix[3] != [0, 0, 0, 1]).any():
-        raise MeshError("the matrix of a node is no affine map.")
+        raise MeshError("the matrix of a node is not an affine map.")
     return matrix
 
 
@@ -113,7 +113,7 @@ def _rotation(quaternion: list[float]) -> Floats:
     x, y, z, w = np.array(quaternion, dtype=np.float64)
     n = x * x + y * y + z * z + w * w
     if not n > 0.0:
-        raise MeshError("the rotation of a node is no quaternion.")
+        raise MeshError("the rotation of a node is not a quaternion.")
     skew = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     return np.eye(3) + (2 / n) * (w * skew + skew @ skew)
 
@@ -167,5 +167,5 @@ def _triangles(mode: int, corners: Ints) -> Ints:
         rim = corners[1:]
         return np.column_stack([rim[:-1], rim[1:], np.full(max(rim.size - 1, 0), corners[0])])
     if mode != _TRIANGLES or corners.size % 3:
-        raise MeshError(f"{corners.size} corners of mode {mode} are no triangles.")
+        raise MeshError(f"{corners.size} corners of mode {mode} are not triangles.")
     return corners.reshape(-1, 3)

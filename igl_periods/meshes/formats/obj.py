@@ -14,7 +14,7 @@ from .text import coordinates, row_of_indices, shown, text_lines
 # An index, with those of texture and normal behind slashes.
 _INDEX = rb"-?\d{1,9}(?:\.\d*)?(?:[eE][-+]?\d{1,2})?"
 _FACE = re.compile(rb"fo?(?:\s+%b(?:/(?:%b)?){0,2})+" % (_INDEX, _INDEX))
-# Curves and surfaces, and other files: parts of the object that are no polygons.
+# Curves and surfaces, and other files: parts of the object that are not polygons.
 _OTHER = {b"surf", b"curv", b"curv2", b"bzp", b"bsp", b"cdc", b"cdp", b"res", b"call"}
 
 
@@ -45,7 +45,7 @@ def mesh_from_obj(data: bytes) -> MeshFile:
 def _face(line: bytes, n: int) -> list[int]:
     """The corners of a face, counted from 0; n vertices come before it."""
     if not _FACE.fullmatch(line):
-        raise MeshError(f"this line is no face, which is made of indices: {shown(line)}.")
+        raise MeshError(f"this line is not a face, which is made of indices: {shown(line)}.")
     tokens = [token.partition(b"/")[0] for token in line.split()[1:]]
     numbers = row_of_indices(tokens, line)
     if min(numbers) < -n:

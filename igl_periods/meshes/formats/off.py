@@ -85,7 +85,7 @@ def _one_on_a_line(
     widths = {len(row.split()) for row in vertices}
     if len(body) < n + m or (widths and min(widths) < size):
         return None
-    # Two vertices on a line here, three there: those are no lines of vertices.
+    # Two vertices on a line here, three there: those are not lines of vertices.
     if len(widths) > 1 and len(body) > n + m:
         return None
     whole = all(_length(row.split()) <= len(row.split()) for row in faces)
@@ -143,7 +143,7 @@ def _refuse(
         )
     for row in body[n : n + m] if len(body) >= n + m else []:
         if _length(row.split()) > len(row.split()):
-            raise MeshError(f"this line is no face: {shown(row)}.")
+            raise MeshError(f"this line is not a face: {shown(row)}.")
     raise MeshError(f"{announced}: the file is truncated, or its counts are wrong.")
 
 
@@ -152,7 +152,7 @@ def _corners(row: bytes) -> list[int]:
     words = row.split()
     corners = row_of_indices(words[1 : _length(words)], row)
     if corners and min(corners) < 0:
-        raise MeshError(f"this line is no face: {shown(row)}.")
+        raise MeshError(f"this line is not a face: {shown(row)}.")
     return corners
 
 

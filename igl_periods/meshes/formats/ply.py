@@ -51,8 +51,8 @@ def mesh_from_ply(data: bytes) -> MeshFile:
     Raises
     ------
     MeshError
-        If the header is no PLY header, declares no x, y, z or no faces, or the tables are shorter
-        than declared or hold no numbers.
+        If the header is not a PLY header, declares no x, y, z or no faces, or the tables are
+        shorter than declared or hold no numbers.
     """
     if data.startswith((codecs.BOM_UTF8, codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         text = data[3:] if data.startswith(codecs.BOM_UTF8) else plain_text(data)

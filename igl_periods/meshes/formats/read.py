@@ -53,7 +53,7 @@ def read_mesh_file(path: str | PathLike[str]) -> MeshFile:
     if not file.exists():
         raise FileNotFoundError(f"there is no mesh file {str(file)!r}")
     if not file.is_file():
-        raise MeshError(f"{file}: this is no file.")
+        raise MeshError(f"{file}: this is not a file.")
     extension = extension_of(file.name)
     if extension not in EXTENSIONS:
         known = " ".join(EXTENSIONS)

@@ -55,7 +55,7 @@ def read_stl(data: bytes) -> tuple[Floats, tuple[str, ...]]:
         return _text(text), () if ended else ("there is no 'endsolid': is the file complete?",)
     if len(data) < _HEADER:
         raise MeshError(
-            "the file is no STL: neither text that begins with 'solid', nor long enough for the "
+            "the file is not STL: neither text that begins with 'solid', nor long enough for the "
             f"header of a binary file, with {len(data)} bytes."
         )
     return _binary_by_its_length(data, n_facets)
@@ -92,8 +92,8 @@ def _binary_by_its_length(data: bytes, announced: int) -> tuple[Floats, tuple[st
         return corners[: 3 * announced], (warning,)
     if left:
         raise MeshError(
-            f"the file has {len(data)} bytes, which are no whole number of triangles, and does not "
-            "say how many there are: it is truncated, or no STL."
+            f"the file has {len(data)} bytes, which is not a whole number of triangles, and does "
+            "not say how many there are: it is truncated, or not STL."
         )
     return corners, (f"{announced} triangles are announced, and there are {found}: all were read.",)
 

@@ -88,7 +88,7 @@ def numbers(tokens: list[bytes]) -> Floats:
     if odd and not odd.translate(None, b","):
         return np.array([float(token) for token in _with_decimal_points(joined.split())])
     if odd:
-        raise ValueError("what is no number")
+        raise ValueError("what is not a number")
     return np.array([float(token) for token in joined.split()])
 
 
@@ -109,16 +109,16 @@ def _with_decimal_points(tokens: list[bytes]) -> list[bytes]:
 def indices(tokens: list[bytes]) -> Ints:
     """Whole numbers, also written as 3.0; ValueError if one is none."""
     if any(not _INDEX.fullmatch(token) for token in tokens):
-        raise ValueError("what is no whole number")
+        raise ValueError("what is not a whole number")
     if not b"".join(tokens).translate(None, b"0123456789+-"):
         return np.array([int(token) for token in tokens], dtype=np.int64)
     return whole(np.array([float(token) for token in tokens]))
 
 
 def whole(values: Floats) -> Ints:
-    """Floating-point numbers as integers; ValueError if one is no whole number below 2^53."""
+    """Floating-point numbers as integers; ValueError if one is not a whole number below 2^53."""
     if not (np.abs(values) < 2.0**53).all() or (values != np.rint(values)).any():
-        raise ValueError("what is no whole number")
+        raise ValueError("what is not a whole number")
     return values.astype(np.int64)
 
 
@@ -136,4 +136,4 @@ def shown(row: bytes) -> str:
 
 
 def _no(what: str, made: str, row: bytes) -> MeshError:
-    return MeshError(f"this line is no {what}, which is {made}: {shown(row)}.")
+    return MeshError(f"this line is not a {what}, which is {made}: {shown(row)}.")

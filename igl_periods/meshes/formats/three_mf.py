@@ -178,7 +178,7 @@ def mesh_from_3mf(data: bytes) -> MeshFile:
         raise
     except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, OSError) as error:
         raise MeshError(
-            f"the file is no zip archive, or truncated or corrupt ({error})."
+            f"the file is not a zip archive, or truncated or corrupt ({error})."
         ) from error
     except (ET.ParseError, LookupError, ValueError, RecursionError) as error:
         words = f"{type(error).__name__}: {error}"[:120]

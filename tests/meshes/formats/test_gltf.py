@@ -121,9 +121,9 @@ BAD_GLTF = {
     "nothing": (gltf([{}]), "no triangles in the scene"),
     "far away": (changed(buffers=[{"uri": "https://x/y.bin", "byteLength": 1}]), "not in the file but"),
     "missing": (changed(buffers=[{"uri": "y.bin", "byteLength": 1}]), "'y.bin', which belongs to it"),
-    "projective": (gltf([{"mesh": 0, "matrix": list(range(16))}]), "no affine map"),
-    "no JSON": (b"{", "no glTF 2.0, truncated or corrupt"),
-    "not an object": (b"[1, 2]", "no glTF 2.0, truncated or corrupt"),
+    "projective": (gltf([{"mesh": 0, "matrix": list(range(16))}]), "not an affine map"),
+    "no JSON": (b"{", "not glTF 2.0, truncated or corrupt"),
+    "not an object": (b"[1, 2]", "not glTF 2.0, truncated or corrupt"),
     "too short": (changed(bufferViews=[{"buffer": 0, "byteLength": 6}] * 2), "bytes are needed of"),
     "huge": (
         changed(accessors=[{"componentType": 5123, "count": 10**12, "type": "SCALAR", "bufferView": 0}] * 2),

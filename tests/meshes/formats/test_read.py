@@ -1,4 +1,4 @@
-"""Every format: what is written is read, and what is no mesh is refused."""
+"""Every format: what is written is read, and what is not a mesh is refused."""
 
 import struct
 
@@ -51,18 +51,22 @@ REFUSED = {
     "only comments": ("mesh.obj", "# nothing\n", "0 vertices and no faces"),
     "no faces": ("mesh.obj", TETRAHEDRON.split("f")[0], "4 vertices and no faces"),
     "binary obj": ("mesh.obj", b"v\0\1\2", "binary, where text is expected"),
-    "NaN in obj": ("mesh.obj", TETRAHEDRON.replace("v 1", "v nan"), "no vertex.*'v nan 0 0'"),
+    "NaN in obj": ("mesh.obj", TETRAHEDRON.replace("v 1", "v nan"), "not a vertex.*'v nan 0 0'"),
     "overflow in obj": (
         "mesh.obj",
         TETRAHEDRON.replace("v 1", "v 1e999"),
         "infinite coordinates: 'v 1e999 0 0'",
     ),
-    "two coordinates": ("mesh.obj", TETRAHEDRON.replace("v 1 0 0", "v 1 0"), "no vertex.*'v 1 0'"),
+    "two coordinates": (
+        "mesh.obj",
+        TETRAHEDRON.replace("v 1 0 0", "v 1 0"),
+        "not a vertex.*'v 1 0'",
+    ),
     "index 0": ("mesh.obj", TETRAHEDRON.replace("f 1 3 2", "f 0 3 2"), "refer to vertices -1 to 3"),
     "index too big": ("mesh.obj", TETRAHEDRON + "f 1 2 5\n", "refer to vertices 0 to 4 .*are 4"),
-    "index enormous": ("mesh.obj", TETRAHEDRON + "f 1 2 99999999999\n", "no face.*99999999999"),
+    "index enormous": ("mesh.obj", TETRAHEDRON + "f 1 2 99999999999\n", "not a face.*99999999999"),
     "face of two": ("mesh.obj", TETRAHEDRON + "f 1 2\n", "face 4 .* has 2 corners"),
-    "face of words": ("mesh.obj", TETRAHEDRON + "f a b c\n", "no face.*'f a b c'"),
+    "face of words": ("mesh.obj", TETRAHEDRON + "f a b c\n", "not a face.*'f a b c'"),
     "long line": ("mesh.obj", TETRAHEDRON + "f" + " 1 2 3" * 400, "face 4 .*1200 corners. crosses"),
     "counted backwards too far": (
         "mesh.obj",
@@ -84,20 +88,20 @@ REFUSED = {
     "degree of thousands of digits": (
         "mesh.off",
         off(V4, F4).replace("\n3 1", "\n" + "9" * 5000 + " 1"),
-        "no face",
+        "not a face",
     ),
     "OFF cut in the vertices": ("mesh.off", off(V4, F4)[:20], "announced, and .* truncated"),
     "OFF cut in the faces": ("mesh.off", off(V4, F4)[:-10], "announced, and 7 lines .* truncated"),
-    "OFF cut in a line": ("mesh.off", off(V4, F4)[:-3], "no face: '3 1 2'"),
+    "OFF cut in a line": ("mesh.off", off(V4, F4)[:-3], "not a face: '3 1 2'"),
     "degree 0": ("mesh.off", off(V4, [*F4, []]), "face 4 .* has 0 corners"),
     "degree enormous": (
         "mesh.off",
         off(V4, F4).replace("3 1", "999999999 1"),
-        "no face: '999999999",
+        "not a face: '999999999",
     ),
-    "index -1": ("mesh.off", off(V4, [*F4, [1, 2, -1]]), "no face: '3 1 2 -1'"),
-    "index 1.5": ("mesh.off", off(V4, [*F4, [1, 2, 1.5]]), "no face.*: '3 1 2 1.5'"),
-    "inf in off": ("mesh.off", off(V4, F4).replace("1 0 0", "inf 0 0"), "no vertex.*'inf 0 0'"),
+    "index -1": ("mesh.off", off(V4, [*F4, [1, 2, -1]]), "not a face: '3 1 2 -1'"),
+    "index 1.5": ("mesh.off", off(V4, [*F4, [1, 2, 1.5]]), "not a face.*: '3 1 2 1.5'"),
+    "inf in off": ("mesh.off", off(V4, F4).replace("1 0 0", "inf 0 0"), "not a vertex.*'inf 0 0'"),
     "no ply": ("mesh.ply", TETRAHEDRON, "no PLY header"),
     "ply header cut": ("mesh.ply", GOOD_PLY[:60], "no PLY header from 'ply' to 'end_header'"),
     "unknown type": (
@@ -200,7 +204,7 @@ REFUSED = {
     "garbage in stl": (
         "mesh.stl",
         GOOD_STL.replace(b"vertex 1.0", b"vertex 1\x0e0"),
-        "no vertex.*'vertex 1.x0e0 0.0 0.0'",
+        "not a vertex.*'vertex 1.x0e0 0.0 0.0'",
     ),
     "stl facets of 2 and 4": (
         "mesh.stl",
@@ -212,7 +216,7 @@ REFUSED = {
         BINARY_STL[:96] + struct.pack("<f", np.inf) + BINARY_STL[100:],
         "NaN or infinite",
     ),
-    "NaN in stl": ("mesh.stl", GOOD_STL.replace(b"vertex 1.0", b"vertex nan"), "no vertex"),
+    "NaN in stl": ("mesh.stl", GOOD_STL.replace(b"vertex 1.0", b"vertex nan"), "not a vertex"),
 }
 
 
@@ -230,5 +234,5 @@ def test_missing_file_and_folder(tmp_path):
     with pytest.raises(FileNotFoundError, match=r"there is no mesh file '.*nothing\.off'"):
         load_mesh(tmp_path / "nothing.off")
     (tmp_path / "folder.off").mkdir()
-    with pytest.raises(ip.MeshError, match="this is no file"):
+    with pytest.raises(ip.MeshError, match="this is not a file"):
         load_mesh(tmp_path / "folder.off")

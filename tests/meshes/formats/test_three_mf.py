@@ -106,7 +106,7 @@ def test_3mf_that_is_refused(tmp_path, name):
 
 
 def test_archives_that_are_none(tmp_path):
-    with pytest.raises(ip.MeshError, match="no zip archive"):
+    with pytest.raises(ip.MeshError, match="not a zip archive"):
         loaded(tmp_path, b"PK\3\4 and no more", "a.3mf")
     with pytest.raises(ip.MeshError, match=r"has no 3D/3dmodel\.model"):
         loaded(tmp_path, archive(other="x"), "a.3mf")

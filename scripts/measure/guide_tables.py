@@ -1,12 +1,13 @@
-"""Write the tables of the README: measurements of ``benchmark.py``, and the packages.
+"""Write the tables of the guide: measurements of ``benchmark.py``, and the packages.
 
     python scripts/measure/benchmark.py --json data/measurements/benchmark.json
-    python scripts/measure/readme_tables.py                  from data/measurements/benchmark.json
-    python scripts/measure/readme_tables.py --check
+    python scripts/measure/guide_tables.py                  from data/measurements/benchmark.json
+    python scripts/measure/guide_tables.py --check
 
-Each table stands between two comments, ``<!-- speed -->`` and ``<!-- /speed -->``; the others are
-growth, genus, digits, enclosures (from ``enclosures.json`` beside it), and packages, which is made
-of the first lines of their faces.  Sections that were not measured stay as they are.
+Each table stands in a page of ``scripts/docs`` between two comments, ``<!-- speed -->`` and
+``<!-- /speed -->``; the others are growth, genus, digits, enclosures (from ``enclosures.json``
+beside it), and packages, which is made of the first lines of their faces.  Sections that were not
+measured stay as they are.
 """
 
 import argparse
@@ -17,7 +18,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-README = ROOT / "README.md"
+GUIDE = ROOT / "scripts" / "docs"
 SOURCE = ROOT / "igl_periods"
 ENCLOSURES = ROOT / "data" / "measurements" / "enclosures.json"
 
@@ -107,7 +108,7 @@ def packages():
     for name in (name for name in order if (SOURCE / name / "__init__.py").exists()):
         face = ast.get_docstring(ast.parse((SOURCE / name / "__init__.py").read_text("utf-8")))
         summary = face.splitlines()[0].rstrip(".").replace("``", "`")
-        yield f"[`{name}/`](igl_periods/{name}/__init__.py)", summary
+        yield f"[`{name}/`](../../../igl_periods/{name}/__init__.py)", summary
 
 
 TABLES = {
@@ -125,6 +126,16 @@ def markdown(rows):
     return "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
 
 
+def with_tables(text, tables):
+    """A page with its tables put in their places."""
+    for name, rows in tables.items():
+        table = f"<!-- {name} -->\n{markdown(rows)}\n<!-- /{name} -->"
+        text = re.sub(
+            rf"<!-- {name} -->.*?<!-- /{name} -->", lambda _, new=table: new, text, flags=re.S
+        )
+    return text
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument(
@@ -132,19 +143,21 @@ def main():
     )
     parser.add_argument("--check", action="store_true", help="write nothing; fail on differences")
     options = parser.parse_args()
-    text = before = README.read_text(encoding="utf-8")
     measured = list(json.loads(options.json.read_text(encoding="utf-8")).items())
     if ENCLOSURES.exists():
         measured += json.loads(ENCLOSURES.read_text(encoding="utf-8")).items()
     tables = {name: TABLES[name](section) for name, section in measured if name in TABLES}
-    for name, rows in {"packages": packages(), **tables}.items():
-        table = f"<!-- {name} -->\n{markdown(rows)}\n<!-- /{name} -->"
-        text = re.sub(
-            rf"<!-- {name} -->.*?<!-- /{name} -->", lambda _, new=table: new, text, flags=re.S
-        )
-    if options.check:
-        sys.exit(0 if text == before else f"{README} differs from the measurements")
-    README.write_text(text, encoding="utf-8")
+    tables = {name: list(rows) for name, rows in {"packages": packages(), **tables}.items()}
+    missing = set(tables)
+    for page in sorted(GUIDE.rglob("*.md")):
+        before = page.read_text(encoding="utf-8")
+        missing -= set(re.findall(r"<!-- (\w+) -->", before))
+        text = with_tables(before, tables)
+        if options.check and text != before:
+            sys.exit(f"{page} differs from the measurements")
+        if text != before:
+            page.write_text(text, encoding="utf-8")
+    sys.exit(f"no page has a place for {', '.join(sorted(missing))}" if missing else 0)
 
 
 if __name__ == "__main__":
