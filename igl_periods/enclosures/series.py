@@ -100,8 +100,25 @@ class Series:
         if side == 1:
             a, b = b, a
         size = 2 * Arb(float(cells.scale[cell]))
-        line = flint.acb_poly([(a + b) / size, (b - a) / size])
-        return [flint.acb_poly(c)(line) for c in self.coefficients[cell]]
+        return _composed(self.coefficients[cell], (a + b) / size, (b - a) / size)
+
+
+def _composed(forms: list[list[Acb]], alpha: Acb, beta: Acb) -> list[flint.acb_poly]:
+    """The polynomials Σ c_k (α + βt)^k of several forms with equally many coefficients.
+
+    Their coefficients are β^j / j! Σ_k (k! c_k) α^(k−j) / (k−j)!, for each form one product.
+    """
+    length = len(forms[0])
+    factorials = [Arb(math.factorial(k)) for k in range(length)]
+    shift = flint.acb_poly([x / f for x, f in zip(powers_of(alpha, length), factorials)])
+    scale = [x / f for x, f in zip(powers_of(beta, length), factorials)][::-1]
+    composed = []
+    for form in forms:
+        backwards = flint.acb_poly([c * f for c, f in zip(form, factorials)][::-1])
+        product = backwards * shift
+        found = [product[j] * scale[j] for j in range(length)]
+        composed.append(flint.acb_poly(found[::-1]))
+    return composed
 
 
 def largest_exponent(numbers: Iterable[Acb]) -> int:
