@@ -5,8 +5,9 @@
     python scripts/measure/readme_tables.py --check
 
 Each table stands between two comments, ``<!-- speed -->`` and ``<!-- /speed -->``; the others are
-growth, genus, digits, enclosures (from ``enclosures.json`` beside it), and packages, which is made
-of the first lines of their faces.  Sections that were not measured stay as they are.
+growth, genus, digits, enclosures and peers (from ``enclosures.json`` and ``peers.json`` beside it),
+and packages, which is made of the first lines of their faces.  Sections that were not measured stay
+as they are.
 """
 
 import argparse
@@ -19,7 +20,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 README = ROOT / "README.md"
 SOURCE = ROOT / "igl_periods"
-ENCLOSURES = ROOT / "data" / "measurements" / "enclosures.json"
+MEASUREMENTS = ROOT / "data" / "measurements"
+BESIDE = (MEASUREMENTS / "enclosures.json", MEASUREMENTS / "peers.json")
 
 
 def speed(rows):
@@ -98,6 +100,22 @@ def enclosures(rows):
         )
 
 
+def peers(rows):
+    """Tasks with who does them; the seconds, and their ratio to ours, for each size."""
+    sizes = sorted({row["faces"] for row in rows})
+    yield "task", "by", *(f"{faces:,} faces" for faces in sizes), "difference to ours"
+    for task, way in dict.fromkeys((row["task"], row["by"]) for row in rows):
+        mine = {row["faces"]: row for row in rows if (row["task"], row["by"]) == (task, way)}
+        times = [
+            f"{mine[faces]['seconds']:.2g} s ({mine[faces]['over_ours']:.2f})"
+            if faces in mine
+            else "–"
+            for faces in sizes
+        ]
+        difference = max(row["difference"] for row in mine.values())
+        yield task, way, *times, f"{difference:.0e}" if difference else "–"
+
+
 def packages():
     """The packages in reading order, and the first lines of their faces."""
     order = re.findall(
@@ -116,6 +134,7 @@ TABLES = {
     "genus": genus,
     "digits": digits,
     "enclosures": enclosures,
+    "peers": peers,
 }
 
 
@@ -127,15 +146,13 @@ def markdown(rows):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument(
-        "json", type=Path, nargs="?", default=ROOT / "data" / "measurements" / "benchmark.json"
-    )
+    parser.add_argument("json", type=Path, nargs="?", default=MEASUREMENTS / "benchmark.json")
     parser.add_argument("--check", action="store_true", help="write nothing; fail on differences")
     options = parser.parse_args()
     text = before = README.read_text(encoding="utf-8")
     measured = list(json.loads(options.json.read_text(encoding="utf-8")).items())
-    if ENCLOSURES.exists():
-        measured += json.loads(ENCLOSURES.read_text(encoding="utf-8")).items()
+    for path in filter(Path.exists, BESIDE):
+        measured += json.loads(path.read_text(encoding="utf-8")).items()
     tables = {name: TABLES[name](section) for name, section in measured if name in TABLES}
     for name, rows in {"packages": packages(), **tables}.items():
         table = f"<!-- {name} -->\n{markdown(rows)}\n<!-- /{name} -->"
