@@ -11,10 +11,11 @@ Four tasks, on surfaces of genus 2 from marching cubes, of which every fifth edg
 * 2g Laplace equations alone, on the Delaunay triangulation: SciPy's SuperLU and ``spsolve``, and
   PyAMG's Ruge–Stüben multigrid with conjugate gradients.
 
-SuperLU is left out above 200,000 faces.  robust-laplacian, potpourri3d and pyamg are no dependencies; those that are missing are named and
-left out.  Seconds are those of the processor, medians of runs in turn.  Each result is compared
-with ours: Laplacians relative to their diagonals, energies as D = A D′ Aᵀ with the integer matrix A
-of determinant ±1 that takes our classes to those of the peer, potentials relative to the largest.
+SuperLU is left out above 200,000 faces.  robust-laplacian, potpourri3d and pyamg are no
+dependencies; those that are missing are named and left out.  Seconds are those of the processor,
+medians of runs in turn.  Each result is compared with ours: Laplacians relative to their diagonals,
+energies as D = A D′ Aᵀ with the integer matrix A of determinant ±1 that takes our classes to those
+of the peer, potentials relative to the largest.
 """
 
 from __future__ import annotations
