@@ -60,7 +60,7 @@ def delaunay_on_all_ranks(comm: Intracomm, piece: Piece) -> Piece:
         after = _on_root(comm, piece.some(faces))
         if after is None:
             break
-        logger.info("round %d along the seams", n + 1)
+        logger.info("round %d along the seams", n + 1, extra={"seam_round": n + 1})
         piece = piece.replaced(faces, after)
     return piece
 

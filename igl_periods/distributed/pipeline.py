@@ -14,6 +14,7 @@ from igl_periods.complexes import (
     as_complex,
 )
 from igl_periods.harmonic import allowance_for_loss, dirichlet_matrix, extreme_sensitivity
+from igl_periods.machine import release_freed_memory
 from igl_periods.periods import PeriodMatrix, certified_period_matrix
 from igl_periods.run_log import stage
 from igl_periods.topology import mark
@@ -123,6 +124,7 @@ def _scattered(
 
     # The partition ends with this function: the pieces are all that is needed of it.
     marked, partition = on_root(comm, divide) or (None, None)
+    release_freed_memory()
     with stage("scattering"):
         return marked, *scatter(comm, partition.share if partition else None)
 

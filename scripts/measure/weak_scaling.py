@@ -32,7 +32,7 @@ SURFACES = {"delaunay": delaunay_surface, "marching-cubes": marching_cubes_surfa
 TRIANGLES = 1e9
 GENUS = 2
 # What rank 0 does alone.
-INTEGERS = ("surface", "homology", "Delaunay flips", "partition")
+INTEGERS = ("surface", "homology", "partition", "scattering")
 # What is assumed: neighbours of a part, its ghosts over the root of its vertices, exchanges with
 # every neighbour on each level of an iteration, coarsening, and seconds for one message.
 NEIGHBOURS, GHOSTS, EXCHANGES, COARSENING, LATENCY = 6, 3.0, 6, 20.0, 2e-6
@@ -43,12 +43,14 @@ class Stages(logging.Handler):
 
     def __init__(self):
         super().__init__()
-        self.seconds, self.iterations, self.peak = {}, [], {}
+        self.seconds, self.iterations, self.peak, self.seam_rounds = {}, [], {}, 0
 
     def emit(self, record):
         stage = getattr(record, "stage", None)
         if getattr(record, "iterations", None) is not None:
             self.iterations.append(record.iterations)
+        elif getattr(record, "seam_round", None) is not None:
+            self.seam_rounds = record.seam_round
         elif stage and record.seconds is None:
             self.seconds[stage] = -time.process_time()
         elif stage:
@@ -92,8 +94,11 @@ def measure(comm, name, n_vertices, rtol):
         "seconds": stages.seconds,
         "iteration": solving / owned,
         "multigrid": stages.seconds["multigrid"] / owned,
+        "seam_rounds": stages.seam_rounds,
+        "flips": stages.seconds["Delaunay flips"] * comm.size / pm.complex.n_faces,
         "integers": sum(stages.seconds[stage] for stage in INTEGERS) / pm.complex.n_faces,
         "root": root / pm.complex.n_faces,
+        "root_flips": peaks[0]["Delaunay flips"] / pm.complex.n_faces,
         "other": max(peaks[-1].values()) / owned if comm.size > 1 else float("nan"),
     }
     report(result)
@@ -109,6 +114,9 @@ def report(result):
         f"  multigrid, per owned vertex            {1e6 * result['multigrid']:8.3f} µs\n"
         f"  rank 0 up to the partition, per face   {1e6 * result['integers']:8.3f} µs, "
         f"{result['root']:.0f} bytes\n"
+        f"  flips, per face of a rank              {1e6 * result['flips']:8.3f} µs, "
+        f"{result['seam_rounds']} rounds along seams, rank 0 holds "
+        f"{result['root_flips']:.0f} bytes a face of all\n"
         f"  another rank, per owned vertex         {result['other']:8.0f} bytes\n"
         + "".join(f"  {stage:<38} {s:8.3f} s\n" for stage, s in result["seconds"].items()),
         flush=True,
@@ -135,11 +143,13 @@ def model(results):
         levels = np.log(n) / np.log(COARSENING)
         latency = LATENCY * levels * (EXCHANGES * NEIGHBOURS + 3 * np.log2(N))
         work, setup = owned * last["iteration"], owned * last["multigrid"]
+        flips = last["flips"] * TRIANGLES / N
         print(
             f"  {N:>5} ranks: {owned / 1e6:5.2f} M vertices, {ghosts:5.0f} ghosts "
             f"({8e-3 * ghosts:3.0f} kB an exchange), {1e-9 * owned * last['other']:6.2f} GB; "
-            f"multigrid {setup:6.1f} s, an iteration {1e3 * work:7.1f} + {1e3 * latency:3.1f} ms, "
-            f"all {setup + 2 * GENUS * expected * (work + latency):7.1f} s"
+            f"flips {flips:6.1f} s, multigrid {setup:6.1f} s, "
+            f"an iteration {1e3 * work:7.1f} + {1e3 * latency:3.1f} ms, "
+            f"all {flips + setup + 2 * GENUS * expected * (work + latency):7.1f} s"
         )
 
 
