@@ -16,7 +16,7 @@ that base whose long sides, glued to each other, are :math:`10^{30}` times as lo
 its apex has the cotangent :math:`10^{30}`, so that the base is Delaunay whatever the triangle
 inside becomes; and an edge with the same triangle on both sides always is.
 
-The strips have :math:`O(\sqrt{n N})` triangles for n vertices on N ranks.
+The strips have about :math:`16 \sqrt{n N}` triangles for n vertices on N ranks.
 """
 
 from __future__ import annotations

@@ -9,9 +9,9 @@ them how the number of iterations grows.
     mpiexec -n 2 python scripts/measure/weak_scaling.py marching-cubes --vertices 600000
 
 Seconds are those of the processor, which others on the machine disturb less than the clock; waiting
-for another rank counts, so those of one rank are the cleanest.  Memory
-is what a process takes on top of what it had before; so it is exact for the first surface only, and
-close where each is several times as large as the one before.
+for another rank counts, so those of one rank are the cleanest.  Memory is what a process takes on
+top of what it had before: exact for the first surface only, and close where each is several
+times as large as the one before.
 """
 
 import argparse
@@ -26,6 +26,7 @@ from benchmark import delaunay_surface, marching_cubes_surface
 from mpi4py import MPI
 
 from igl_periods.distributed import period_matrix
+from igl_periods.machine import release_freed_memory
 from igl_periods.run_log import logger
 
 SURFACES = {"delaunay": delaunay_surface, "marching-cubes": marching_cubes_surface}
@@ -74,6 +75,7 @@ def measure(comm, name, n_vertices, rtol):
     stages = Stages()
     logger.addHandler(stages)
     logger.setLevel(logging.INFO)
+    release_freed_memory()
     forget_peak()
     before = memory("VmRSS")
     pm = period_matrix(V, F, comm=comm, rtol=rtol)
@@ -163,6 +165,8 @@ def main():
     parser.add_argument("--json", type=Path, help="write the measurements to this file")
     options = parser.parse_args()
     comm = MPI.COMM_WORLD
+    # Libraries are loaded when they are first used: their memory is not that of a surface.
+    period_matrix(*(SURFACES["delaunay"](2_000) if comm.rank == 0 else ()), comm=comm)
     results = [measure(comm, options.surface, n, options.rtol) for n in options.vertices]
     if comm.rank > 0:
         return
