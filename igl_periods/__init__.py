@@ -41,6 +41,7 @@ from .interrupts import end_quietly_while_importing as _end_quietly_while_import
 _end_quietly_while_importing()
 
 from importlib.metadata import version as _version
+from typing import Any as _Any
 
 from . import forms, genus_two, surfaces
 from .errors import (
@@ -178,6 +179,17 @@ from .deformations import (
 from .surfaces import Identification, catalogue, identify
 
 __version__ = _version("igl_periods")
+
+
+def _viewer(surface: PeriodMatrix | DeltaComplex, title: str) -> _Any:
+    """The page of a surface; pictures are imported when one is asked for."""
+    from .pictures import interactive
+
+    return interactive(surface, title=title)
+
+
+DeltaComplex.shown_by(_viewer)
+PeriodMatrix.shown_by(_viewer)
 
 __all__ = [
     # meshes and complexes

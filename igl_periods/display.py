@@ -13,10 +13,10 @@ the last digit is off by one at most.  What is within b of 0, or has no digit bu
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import fields
 from html import escape
-from typing import Any
+from typing import Any, ClassVar
 
 import flint
 import numpy as np
@@ -32,6 +32,46 @@ _PLAIN_DECIMALS = 6
 _EPS = 2.0**-52
 # Characters in a line that numbers may take.
 _LINE = 140
+
+
+class Shown:
+    """What has a page with a surface to turn.
+
+    How such a page is made is known further up: whoever knows it says so to :meth:`shown_by`.
+    """
+
+    _viewer: ClassVar[Callable[..., Any] | None] = None
+
+    @classmethod
+    def shown_by(cls, viewer: Callable[..., Any]) -> None:
+        """Have a function of the object and of ``title`` make its page."""
+        cls._viewer = staticmethod(viewer)
+
+    def show(self, *, title: str = "") -> Any:
+        """The surface on a page where it can be turned.
+
+        Parameters
+        ----------
+        title : str
+            What the page is called.
+
+        Returns
+        -------
+        Viewer
+            A notebook displays it; ``save(path)`` writes one HTML file, which needs no network.
+            Without positions the surface is drawn in the plane: by the polygons that it was
+            glued from, or developed by a holomorphic form.
+
+        Raises
+        ------
+        MissingExtraError
+            If the packages of the extra ``pictures`` are not installed.
+        ComplexError
+            If the surface is a sphere without positions, or lies in more than 3 dimensions.
+        """
+        if self._viewer is None:
+            raise RuntimeError("nothing makes pages: import igl_periods itself.")
+        return self._viewer(self, title=title)
 
 
 def counted(count: int, one: str, many: str) -> str:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from igl_periods.display import (
+    Shown,
     arrays_repr,
     known_decimals,
     known_digits,
@@ -139,3 +140,19 @@ def test_arrays_are_shown_by_their_shapes():
         "Involution(face=<2 int64>, vertex=<3 int64>, half_edge=<6 int64>, edge=<3 int64>, "
         "sign=<3 int8>)"
     )
+
+
+def test_pages_are_made_by_whoever_knows_how():
+    class Thing(Shown):
+        pass
+
+    class Other(Thing):
+        pass
+
+    with pytest.raises(RuntimeError, match="nothing makes pages"):
+        Thing().show()
+    Thing.shown_by(lambda thing, title: (type(thing), title))
+    assert Other().show(title="t") == (Other, "t")
+    # Others are not touched.
+    with pytest.raises(RuntimeError, match="nothing makes pages"):
+        Shown().show()

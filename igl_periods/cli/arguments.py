@@ -151,7 +151,7 @@ def add_json_argument(command: Parser) -> None:
     )
 
 
-def add_output_argument(command: Parser, what: str, *suffixes: str) -> None:
+def add_output_argument(command: Parser, what: str, *suffixes: str, required: bool = True) -> None:
     """Add the file that a command writes: its name is checked here, its place in :func:`claim`."""
     known = " or ".join(suffixes)
 
@@ -161,7 +161,12 @@ def add_output_argument(command: Parser, what: str, *suffixes: str) -> None:
         return text
 
     command.add_argument(
-        "-o", "--output", required=True, type=output, metavar="FILE", help=f"{what} ({known})"
+        "-o",
+        "--output",
+        required=required,
+        type=output,
+        metavar="FILE",
+        help=f"{what} ({known})",
     )
 
 

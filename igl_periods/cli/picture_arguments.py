@@ -15,6 +15,11 @@ from igl_periods.errors import ComplexError
 from igl_periods.meshes import MeshReport
 from igl_periods.periods import PeriodMatrix, mesh_quality, reduced_if_feasible
 from igl_periods.pictures import (
+    BOUND,
+    CHECKERBOARD,
+    CUT,
+    CYCLES,
+    LENGTH,
     Scene,
     checkerboard_scene,
     cut_scene,
@@ -23,6 +28,7 @@ from igl_periods.pictures import (
     periodic_copies,
     quadratic_scene,
     quality_scene,
+    scenes_of_matrix,
     sensitivity_scene,
     surface_in_space,
 )
@@ -50,6 +56,15 @@ _KINDS: dict[str, str] = {
     "sensitivity": "where the period matrix is sensitive to displacements of the surface",
     "quadratic": "a quadratic differential, the square of ζ_K: --form K, or the product: K,L",
     "cut": "the cut that makes the surface a disk",
+}
+
+# What a page calls the kinds that it always shows.
+_NAMES = {
+    "cycles": CYCLES,
+    "checkerboard": CHECKERBOARD,
+    "density": LENGTH,
+    "quality": BOUND,
+    "cut": CUT,
 }
 
 
@@ -119,6 +134,8 @@ def add_form_argument(command: Parser) -> None:
 
 def _check_scene(command: Parser, options: argparse.Namespace) -> None:
     """Refuse what the kind of picture does not depend on."""
+    if getattr(options, "output", None) and options.output.lower().endswith((".html", ".htm")):
+        return  # a page shows everything
     why = f"on --show {options.show}"
     if options.show not in _OF_A_FORM:
         refuse_without_effect(command, options, ("form",), f"{why}, which shows no form")
@@ -166,6 +183,23 @@ def _scene(K: DeltaComplex, options: argparse.Namespace) -> Scene:
     scenes = {"checkerboard": checkerboard_scene, "density": density_scene, "cut": cut_scene}
     scene = scenes[options.show](chosen_parametrization(pm, options.form))
     return _described(scene, options, None if options.show == "cut" else pm)
+
+
+def chosen_scenes(options: argparse.Namespace) -> tuple[dict[str, Scene], str]:
+    """Everything that there is to see, by name, and the name of what is asked for."""
+    K, _ = chosen_surface(options)
+    pm = reduced_matrix(K, options)
+    # Of a quadratic differential the form is no form of the surface.
+    form = _EVEN if options.show == "quadratic" else options.form
+    scenes = scenes_of_matrix(pm, chosen_parametrization(pm, form) if pm.genus else None)
+    first = _NAMES.get(options.show, options.show)
+    if options.show == "sensitivity":
+        scenes[first] = sensitivity_scene(pm)
+    if options.show == "quadratic":
+        scenes[first] = quadratic_scene(pm, *_pair(options.form))
+    if first not in scenes:
+        (first,) = scenes
+    return {name: _described(scene, options, pm) for name, scene in scenes.items()}, first
 
 
 def chosen_parametrization(pm: PeriodMatrix, form: str | int | Complexes) -> Parametrization:

@@ -42,7 +42,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from igl_periods.arrays import Floats, Ints, ReadOnlyArrays
-from igl_periods.display import counted, facts_html
+from igl_periods.display import Shown, counted, facts_html
 from igl_periods.errors import MeshError
 from igl_periods.run_log import logger
 
@@ -69,7 +69,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class DeltaComplex(ReadOnlyArrays):
+class DeltaComplex(Shown, ReadOnlyArrays):
     """Euclidean triangles glued along their sides.
 
     Build one with :meth:`from_mesh`, :meth:`from_lengths`, :meth:`from_gluing`,

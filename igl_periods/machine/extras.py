@@ -12,7 +12,7 @@ from igl_periods.errors import MissingExtraError
 
 # The extras of pyproject.toml, by what their packages are called in an import.
 EXTRAS = {
-    "pictures": ("matplotlib", "open3d", "PIL"),
+    "pictures": ("k3d", "matplotlib", "open3d", "PIL"),
     "batch": ("dask", "distributed", "pyarrow", "tqdm"),
     "domains": ("svgelements",),
     "completion": ("argcomplete",),

@@ -58,7 +58,14 @@ from scipy.sparse import csr_array
 
 from igl_periods.arrays import Complexes, Floats, Ints
 from igl_periods.complexes import DeltaComplex
-from igl_periods.display import matrix_html, matrix_latex, matrix_lines, paragraph_html, rounded_up
+from igl_periods.display import (
+    Shown,
+    matrix_html,
+    matrix_latex,
+    matrix_lines,
+    paragraph_html,
+    rounded_up,
+)
 from igl_periods.errors import ComplexError, NotASiegelPointError, NotPositiveDefiniteError
 from igl_periods.harmonic import energy_factor
 from igl_periods.options import in_words
@@ -95,7 +102,7 @@ class Proof(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class PeriodMatrix(Differentiable):
+class PeriodMatrix(Shown, Differentiable):
     """A period matrix with its certificate and its marking.
 
     ``numpy.asarray(pm)`` is ``pm.matrix``.  All arrays are read-only.

@@ -30,7 +30,7 @@ _MARGIN = 0.15
 
 
 def smooth_cycles(sheet: Sheet, walks: Sequence[Ints]) -> list[list[Piece]]:
-    """Closed walks along half-edges as smooth curves; in a cell each in several pieces.
+    """Closed walks along half-edges as smooth curves; in a cell or the plane each in pieces.
 
     Parameters
     ----------
@@ -40,6 +40,12 @@ def smooth_cycles(sheet: Sheet, walks: Sequence[Ints]) -> list[list[Piece]]:
     """
     if not walks:
         return []
+    if sheet.unfolded:
+        up = np.array([0.0, 0.0, 1.0])
+        return [
+            [(sheet.V[rows], np.tile(up, (len(rows), 1)), False) for rows in sheet.pieces(walk)]
+            for walk in walks
+        ]
     if sheet.complex.cell is None:
         curves = [sheet.V[sheet.ends(walk)[0]] for walk in walks]
         smooth = smooth_closed_curves(sheet.V, sheet.F, curves)

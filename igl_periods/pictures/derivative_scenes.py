@@ -20,7 +20,7 @@ from igl_periods.siegel import orthonormal_weights
 
 from .scene import Scene, Tube
 from .scenes import coloured, scale_legend
-from .sheets import Sheet
+from .sheets import Sheet, surface_in_space
 from .tubes import diagonal
 
 _STROKE = (0.80, 0.12, 0.10)
@@ -39,6 +39,7 @@ def sensitivity_scene(pm: PeriodMatrix) -> Scene:
         If the vertices have no positions in space.
     """
     K = pm.complex
+    surface_in_space(K)
     sheet = Sheet.of(K)
     by_vertex = pm.gradient(orthonormal_weights(pm.matrix)).vertices
     if by_vertex is None:

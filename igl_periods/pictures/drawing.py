@@ -12,7 +12,7 @@ from typing import Any
 import igl
 import numpy as np
 
-from igl_periods.arrays import Bytes, Floats, Ints
+from igl_periods.arrays import Bools, Bytes, Floats, Ints
 from igl_periods.errors import RenderError
 from igl_periods.machine import missing_library
 
@@ -27,11 +27,12 @@ _GAMMA = 2.2
 # Pictures are drawn this many times larger and averaged, so that edges are smooth.
 _OVERSAMPLING = 2
 _CORNERS = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+_DITHERED_WHITE = 252.0
 _BACKGROUND = (1.0, 1.0, 1.0, 1.0)
 
 
 def main(folder: str) -> None:
-    """Do what the file ``task`` of a folder says; the outcome is ``picture.npy`` or ``error``."""
+    """Do what the file ``task`` of a folder says; the outcome is ``pictures.npy`` or ``error``."""
     place = Path(folder)
     # Our own file.  The half of Open3D that is about learning takes a second to import.
     task, *arguments = pickle.loads((place / "task").read_bytes())
@@ -40,13 +41,13 @@ def main(folder: str) -> None:
         if task == "show":
             show(*arguments)
         else:
-            np.save(place / "picture.npy", draw(*arguments))
+            np.save(place / "pictures.npy", draw(*arguments))
     except RenderError as error:
         (place / "error").write_text(str(error), encoding="utf-8")
 
 
-def draw(scene: Scene, size: tuple[int, int], eye: Floats, up: Floats) -> Bytes:
-    """A picture of a scene, (height, width, 3), seen from a direction, with another one upwards."""
+def draw(views: list[tuple[Scene, Floats, Floats]], size: tuple[int, int]) -> Bytes:
+    """Pictures of scenes, (k, height, width, 3); each has directions to the eye and upwards."""
     o3d = load_open3d()
     if _draws_with_egl(o3d):
         check_egl()
@@ -54,16 +55,29 @@ def draw(scene: Scene, size: tuple[int, int], eye: Floats, up: Floats) -> Bytes:
         check_vulkan()
     width, height = (_OVERSAMPLING * pixels for pixels in size)
     renderer = o3d.visualization.rendering.OffscreenRenderer(width, height)
+    return np.stack([_draw(o3d, renderer, view, size) for view in views])
+
+
+def _draw(
+    o3d: ModuleType, renderer: Any, view: tuple[Scene, Floats, Floats], size: tuple[int, int]
+) -> Bytes:
+    scene, eye, up = view
+    renderer.scene.clear_geometry()
     _light(o3d, renderer, eye, up)
     for name, geometry, material in geometries(o3d, scene):
         renderer.scene.add_geometry(name, geometry, material)
-    _aim(renderer, scene.V, eye, up, width / height)
+    _aim(renderer, scene.V, eye, up, size[0] / size[1])
     picture = np.asarray(renderer.render_to_image()).astype(np.float64)
-    # 0.20 colours the background, 0.19 dithers it.  Where nothing is, the depth is infinite.
-    depth = np.asarray(renderer.render_to_depth_image(z_in_view_space=True))
-    picture[np.isinf(depth)] = 255.0
+    picture[_background(o3d, renderer, picture)] = 255.0
     fine = picture.reshape(size[1], _OVERSAMPLING, size[0], _OVERSAMPLING, 3)
     return np.rint(fine.mean(axis=(1, 3))).astype(np.uint8)
+
+
+def _background(o3d: ModuleType, renderer: Any, picture: Floats) -> Bools:
+    """Where nothing is: 0.19 dithers white there, 0.20 colours it, but the depth is infinite."""
+    if _draws_with_egl(o3d):
+        return picture.min(axis=-1) >= _DITHERED_WHITE
+    return np.isinf(np.asarray(renderer.render_to_depth_image(z_in_view_space=True)))
 
 
 def show(scene: Scene, title: str) -> None:

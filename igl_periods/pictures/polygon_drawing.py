@@ -65,7 +65,7 @@ def render_polygons(K: DeltaComplex, path: str | PathLike[str], *, width: int = 
 
 def _picture(K: DeltaComplex, width: int) -> ET.Element:
     assert K.polygons is not None
-    placed, apart = _laid_out([polygon.copy() for polygon in K.polygons.xy])
+    placed, apart = laid_out([polygon.copy() for polygon in K.polygons.xy])
     corners = np.concatenate(placed)
     low, high = corners.min(axis=0), corners.max(axis=0)
     margin = 44.0
@@ -94,7 +94,7 @@ def _picture(K: DeltaComplex, width: int) -> ET.Element:
     return svg
 
 
-def _laid_out(polygons: list[Floats]) -> tuple[list[Floats], bool]:
+def laid_out(polygons: list[Floats]) -> tuple[list[Floats], bool]:
     """The polygons where they are, or side by side if their boxes overlap; and whether so."""
     boxes = [(p.min(axis=0), p.max(axis=0)) for p in polygons]
     size = max(float((high - low).max()) for low, high in boxes)

@@ -13,6 +13,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -66,16 +67,42 @@ def render(
     ValueError
         If the size is not between 1 and 4096, or the direction is 0.
     """
+    (picture,) = _drawn([(scene, *seen_from(scene.V, direction))], _checked(size))
+    return picture
+
+
+def render_all(scenes: Iterable[Scene], size: tuple[int, int] = (1200, 900)) -> list[Bytes]:
+    """Draw scenes as :func:`render` does: faster than one after the other.
+
+    Raises
+    ------
+    MissingExtraError
+        If Open3D is not installed.
+    RenderError
+        If a system library or a driver it needs is missing, or it does not come to an end.
+    ValueError
+        If the size is not between 1 and 4096.
+    """
+    return _drawn([(scene, *seen_from(scene.V)) for scene in scenes], _checked(size))
+
+
+def _checked(size: tuple[int, int]) -> tuple[int, int]:
     width, height = size
     if not 1 <= min(size) <= max(size) <= _LARGEST:
         raise ValueError(
             f"a picture of {width} x {height} pixels: both must be between 1 and {_LARGEST}."
         )
-    eye, up = _camera(scene.V, direction)
-    seconds = _START + _PIXEL * width * height + _TRIANGLE * len(scene.F)
+    return size
+
+
+def _drawn(views: list[tuple[Scene, Floats, Floats]], size: tuple[int, int]) -> list[Bytes]:
+    """Pictures of scenes, each with the directions to the eye and upwards."""
+    triangles = sum(len(scene.F) for scene, _, _ in views)
+    pixels = len(views) * size[0] * size[1]
+    seconds = _START + _PIXEL * pixels + _TRIANGLE * triangles
     with stage("drawing"), tempfile.TemporaryDirectory(prefix="igl-periods-") as folder:
-        _run_open3d(Path(folder), ("draw", scene, size, eye, up), seconds)
-        return np.asarray(np.load(Path(folder, "picture.npy")))
+        _run_open3d(Path(folder), ("draw", views, size), seconds)
+        return list(np.load(Path(folder, "pictures.npy")))
 
 
 def show(scene: Scene, title: str = "igl-periods") -> None:
@@ -166,8 +193,13 @@ def _last_words(ended: subprocess.CompletedProcess[bytes]) -> str:
     return f"Open3D was ended while drawing, {how}. The last that it said: {words[0]}"
 
 
-def _camera(V: Floats, direction: ArrayLike | None) -> tuple[Floats, Floats]:
-    """Unit vectors from the surface to the eye, and upwards in the picture."""
+def seen_from(V: Floats, direction: ArrayLike | None = None) -> tuple[Floats, Floats]:
+    """Unit vectors from the surface to the eye, and upwards in the picture.
+
+    Without a direction a surface is seen from its flattest side, one in the plane from above.
+    """
+    if direction is None and not np.ptp(V[:, 2]):
+        return np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0])
     axes = np.linalg.svd(V - V.mean(axis=0), full_matrices=False)[2]
     largest = np.take_along_axis(axes, np.abs(axes).argmax(axis=1)[:, None], axis=1)
     longest, middle, least = axes * np.sign(largest)

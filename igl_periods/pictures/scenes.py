@@ -8,6 +8,9 @@ A scene is made of arrays alone; :mod:`~igl_periods.pictures.rendering` draws it
 * the length |ζ| of a form, on a logarithmic scale;
 * where the bound of the period matrix originates;
 * the cut that makes the surface a disk.
+
+They show the surface where :meth:`~igl_periods.pictures.sheets.Sheet.of` finds it, or on a sheet
+that is given.
 """
 
 from __future__ import annotations
@@ -43,16 +46,16 @@ def cycle_colour(k: int, n: int) -> tuple[float, float, float]:
     return colorsys.hsv_to_rgb(k / n, 0.90, 0.85)
 
 
-def cycles_scene(pm: PeriodMatrix) -> Scene:
+def cycles_scene(pm: PeriodMatrix, sheet: Sheet | None = None) -> Scene:
     """The canonical cycles of the marking of a period matrix, shortened and smoothed.
 
     Raises
     ------
     ComplexError
-        If the surface has no positions in space.
+        If the surface has no positions in space, and no sheet is given.
     """
     K, g = pm.complex, pm.genus
-    sheet = Sheet.of(K)
+    sheet = sheet or Sheet.of(K)
     V, F = sheet.V, sheet.F
     walks = canonical_cycles(pm.complex, pm.cocycles)
     handles = _shortest_handles(K, walks)
@@ -84,9 +87,9 @@ def _shortest_handles(K: DeltaComplex, walks: list[Ints]) -> Ints:
     return np.sort(np.argsort(lengths[:g] + lengths[g:], kind="stable")[:_MOST_HANDLES])
 
 
-def checkerboard_scene(P: Parametrization) -> Scene:
+def checkerboard_scene(P: Parametrization, sheet: Sheet | None = None) -> Scene:
     """The checkerboard of a form, with its zeros (yellow) and vertices of negative index (red)."""
-    sheet = Sheet.of(P.complex)
+    sheet = sheet or Sheet.of(P.complex)
     V, F = sheet.V, sheet.F
     index = P.index[sheet.source]
     zeros, folds = np.flatnonzero(index > 0), np.flatnonzero(index < 0)
@@ -117,10 +120,10 @@ def checkerboard(pixels: int = 256) -> Bytes:
     return np.rint(255.0 * colours).astype(np.uint8)
 
 
-def density_scene(P: Parametrization) -> Scene:
+def density_scene(P: Parametrization, sheet: Sheet | None = None) -> Scene:
     """The length |ζ| of a form, from dark (small) to light, on a logarithmic scale."""
     K = P.complex
-    sheet = Sheet.of(K)
+    sheet = sheet or Sheet.of(K)
     area = face_areas(K)
     at_vertices = spread_to_vertices(K, P.density * area) / spread_to_vertices(K, area)
     values = 0.5 * np.log10(np.maximum(at_vertices[sheet.source], 1e-300))
@@ -137,9 +140,9 @@ def density_scene(P: Parametrization) -> Scene:
     )
 
 
-def quality_scene(K: DeltaComplex, quality: MeshQuality) -> Scene:
+def quality_scene(K: DeltaComplex, quality: MeshQuality, sheet: Sheet | None = None) -> Scene:
     """Where the bound originates: its density, from dark (small) to light, logarithmic."""
-    sheet = Sheet.of(K)
+    sheet = sheet or Sheet.of(K)
     density = quality.vertex_excess / spread_to_vertices(K, face_areas(K))
     relative = density / max(quality.bound, 1e-300) * float(face_areas(K).sum())
     values = np.log10(np.maximum(relative[sheet.source], 1e-6))
@@ -156,9 +159,9 @@ def quality_scene(K: DeltaComplex, quality: MeshQuality) -> Scene:
     )
 
 
-def cut_scene(P: Parametrization) -> Scene:
+def cut_scene(P: Parametrization, sheet: Sheet | None = None) -> Scene:
     """The edges along which the surface is cut to a disk."""
-    sheet = Sheet.of(P.complex)
+    sheet = sheet or Sheet.of(P.complex)
     # In a cell both sides of a seam are seen, each in its place.
     seams = np.concatenate([P.seams, P.complex.twin.ravel()[P.seams]])
     ends = np.unique(np.sort(np.stack(sheet.ends(seams), axis=1), axis=1), axis=0)
@@ -175,9 +178,9 @@ def cut_scene(P: Parametrization) -> Scene:
     )
 
 
-def plain_scene(K: DeltaComplex) -> Scene:
+def plain_scene(K: DeltaComplex, sheet: Sheet | None = None) -> Scene:
     """The surface, and nothing on it."""
-    sheet = Sheet.of(K)
+    sheet = sheet or Sheet.of(K)
     return Scene(sheet.V, sheet.F, _uniform(sheet.V), caption="The surface.")
 
 

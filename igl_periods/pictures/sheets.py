@@ -1,4 +1,11 @@
-"""What there is to see of a surface: of a double one sheet, of a periodic surface its cell."""
+"""What there is to see of a surface, and where: in space, or unfolded in the plane.
+
+Of a double that is one sheet, of a periodic surface its cell.  A surface without positions that was
+glued from polygons lies in the plane, as its polygons do.  Any other can be cut to a disk and
+developed by z = ∫ζ, which is an isometry on every triangle of a flat surface with ζ = dz, and
+conformal up to the error of discretisation otherwise; the image may overlap itself.  In the plane a
+vertex of the surface is drawn several times, and a closed walk in pieces.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +15,10 @@ import numpy as np
 
 from igl_periods.arrays import Floats, Ints
 from igl_periods.complexes import DeltaComplex, involution
+from igl_periods.differentials import Parametrization
 from igl_periods.errors import ComplexError
+
+from .polygon_drawing import laid_out
 
 
 def surface_in_space(K: DeltaComplex) -> tuple[Floats, Ints]:
@@ -60,6 +70,8 @@ class Sheet:
     source : (n,) int
         The vertex of the complex at each row of V.
     complex : DeltaComplex
+    unfolded : bool
+        Whether the surface is cut, and lies in the plane.
     """
 
     V: Floats
@@ -67,16 +79,19 @@ class Sheet:
     corner: Ints
     source: Ints
     complex: DeltaComplex
+    unfolded: bool = False
 
     @classmethod
     def of(cls, K: DeltaComplex) -> Sheet:
-        """The first sheet of a double, or the whole surface.
+        """The first sheet of a double, or the whole surface; or the polygons it was glued from.
 
         Raises
         ------
         ComplexError
-            As :func:`surface_in_space`.
+            As :func:`surface_in_space`, unless there are polygons.
         """
+        if K.cell is None and K.positions is None and K.polygons is not None:
+            return cls._of_polygons(K)
         V, F = surface_in_space(K)
         source = np.empty(len(V), dtype=np.int64)
         source[F] = K.corner_vertex
@@ -91,7 +106,32 @@ class Sheet:
             return cls(V, F, F, source, K)
         return cls(V, F[:m], np.concatenate([F[:m], below]), source, K)
 
+    @classmethod
+    def developed(cls, P: Parametrization) -> Sheet:
+        """The surface cut to a disk, in the plane of z = ∫ζ."""
+        V = _in_space(np.stack([P.uv.real, P.uv.imag], axis=1))
+        return cls(V, P.corner, P.corner, P.vertex, P.complex, unfolded=True)
+
+    @classmethod
+    def _of_polygons(cls, K: DeltaComplex) -> Sheet:
+        assert K.polygons is not None
+        placed, _ = laid_out([polygon.copy() for polygon in K.polygons.xy])
+        first = np.cumsum([0, *map(len, placed)])
+        corner = first[K.polygons.polygon][:, None] + K.polygons.corners
+        source = np.zeros(first[-1], dtype=np.int64)
+        source[corner] = K.corner_vertex
+        return cls(_in_space(np.concatenate(placed)), corner, corner, source, K, unfolded=True)
+
     def ends(self, half_edges: Ints) -> tuple[Ints, Ints]:
         """The rows of V from which and to which half-edges of the complex lead."""
         face, s = np.divmod(half_edges, 3)
         return self.corner[face, (s + 1) % 3], self.corner[face, (s + 2) % 3]
+
+    def pieces(self, walk: Ints) -> list[Ints]:
+        """The rows of V that a walk along half-edges passes, in pieces that hang together."""
+        start, end = self.ends(walk)
+        breaks = np.flatnonzero(end[:-1] != start[1:]) + 1
+        return [
+            np.concatenate([piece, end[last : last + 1]])
+            for piece, last in zip(np.split(start, breaks), [*(breaks - 1), len(walk) - 1])
+        ]

@@ -6,6 +6,9 @@
 ``enclosure_text``  the same of an enclosure
 ``curve_text``      equations and invariants of curves
 ``json_document``   the same for programs
+``findings``        invariants, symmetries, named surfaces
+``typesetting``     sentences and tables as HTML
+``histograms``      angles, weights and errors as pictures
 ``page``            one self-contained HTML file, with pictures
 ==================  ===========================================================================
 """

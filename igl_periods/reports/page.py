@@ -1,27 +1,26 @@
 """A page about a surface: pictures, its period matrix and what is known about it, its mesh.
 
-The page is one HTML file that needs nothing else: pictures are in it, and it runs no script.
+The page is one HTML file that needs nothing else: pictures are in it, and so is the surface to turn
+(:mod:`igl_periods.pictures.viewer`), which is the only part that runs a script.
 """
 
 from __future__ import annotations
 
 import base64
-import io
 import json
 import logging
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Mapping, Sequence
 from html import escape
 from importlib.metadata import version
 from importlib.resources import files
 from pathlib import Path
 from string import Template
+from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
-from igl_periods.arrays import Floats
-from igl_periods.complexes import Cell
+from igl_periods.complexes import DeltaComplex, involution
 from igl_periods.differentials import Parametrization, most_even_form, parametrize
 from igl_periods.display import LARGEST_SHOWN, matrix_html
 from igl_periods.errors import ComplexError, RenderError
@@ -30,25 +29,58 @@ from igl_periods.meshes import MeshReport
 from igl_periods.periods import MeshQuality, PeriodMatrix, mesh_quality
 from igl_periods.pictures import (
     Scene,
-    checkerboard_scene,
-    cut_scene,
-    cycles_scene,
-    density_scene,
     periodic_copies,
-    plain_scene,
-    quality_scene,
-    render,
-    with_legend,
+    png_bytes,
+    render_all,
+    scenes_of_matrix,
+    viewer_of_scenes,
 )
 
+from .findings import invariants, named_surfaces, symmetries
+from .histograms import histograms
 from .json_document import period_matrix_to_json
-from .words import advice, bound_in_words, parametrization_in_words
+from .typesetting import figure, legend, mathematics, paragraphs, table
+from .words import advice, bound_in_words, options_in_words, parametrization_in_words
 
 logger = logging.getLogger("igl_periods")
 _CITATION = (
     "A. I. Bobenko, C. Mercat, M. Schmies, Period matrices of polyhedral surfaces, in: A. I. "
     "Bobenko, C. Klein (eds.), Computational Approach to Riemann Surfaces, Lecture Notes in "
     "Mathematics 2013, Springer (2011)."
+)
+_BIBTEX = """@incollection{BobenkoMercatSchmies2011,
+  author    = {Bobenko, Alexander I. and Mercat, Christian and Schmies, Markus},
+  title     = {Period Matrices of Polyhedral Surfaces},
+  booktitle = {Computational Approach to Riemann Surfaces},
+  editor    = {Bobenko, Alexander I. and Klein, Christian},
+  series    = {Lecture Notes in Mathematics},
+  volume    = {2013},
+  publisher = {Springer},
+  year      = {2011},
+  eprint    = {0909.1305},
+  archivePrefix = {arXiv}
+}
+
+@software{igl_periods,
+  author  = {{the igl\\_periods maintainers}},
+  title   = {igl\\_periods: period matrices of triangle meshes and polyhedral surfaces, with
+             certified error bounds},
+  version = {$version}
+}"""
+_DEFINITION = (
+    "<p>Π in the marking of the pictures: Π<sub><i>kl</i></sub> is the integral along "
+    "<i>b</i><sub><i>l</i></sub> of the holomorphic form ζ<sub><i>k</i></sub> whose integrals "
+    "along <i>a</i><sub>1</sub>, …, <i>a</i><sub><i>g</i></sub> are 0, but for 1 along "
+    "<i>a</i><sub><i>k</i></sub>.</p>"
+)
+# Of pictures beside a surface that one can turn, and of pictures alone.
+_BESIDE, _ALONE = (480, 344), (900, 640)
+_HEIGHT = 600
+# What the page may do: without a surface to turn no script runs.
+_POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
+_POLICY_OF_VIEWERS = (
+    "default-src 'none'; img-src data: blob:; font-src data:; style-src 'unsafe-inline'; "
+    "script-src 'unsafe-inline'; worker-src blob:"
 )
 
 
@@ -59,13 +91,15 @@ def write_report(
     name: str,
     mesh: MeshReport | None = None,
     remarks: Sequence[str] = (),
-    size: tuple[int, int] = (900, 640),
+    options: Mapping[str, Any] | None = None,
+    size: tuple[int, int] | None = None,
     copies: Sequence[int] = (1,),
+    interactive: bool = True,
 ) -> None:
     """Write a self-contained HTML page about a surface and its period matrix.
 
-    Pictures are left out, and the page says why, if the surface has no positions in space or this
-    machine cannot draw.
+    Pictures are left out, and the page says why, if the surface cannot be drawn in space or in the
+    plane, or this machine cannot draw.
 
     Parameters
     ----------
@@ -80,90 +114,123 @@ def write_report(
     remarks : sequence of str
         Sentences about the surface and the computation that the page shall say at its beginning:
         :func:`~igl_periods.reports.method_in_words`.
-    size : (int, int)
-        Width and height of the pictures in pixels.
+    options : mapping, optional
+        The options of :func:`~igl_periods.period_matrix` that ``pm`` was computed with; what is
+        missing is as usual.  Without them the page does not tell options.
+    size : (int, int), optional
+        Width and height of the pictures in pixels; by default 900 × 640, smaller beside a surface
+        that can be turned.
     copies : sequence of int
         How many copies of the cell of a periodic surface they show, along each translation.
+    interactive : bool
+        Whether there is a surface to turn on the page, which takes 1 MB, and 3 MB for 100,000
+        triangles.
 
     Raises
     ------
     MissingExtraError
-        If matplotlib, Open3D or Pillow are not installed.
+        If matplotlib, Open3D, Pillow, or k3d for a surface to turn are not installed.
     OSError
         If the file cannot be written, before anything is drawn.
     """
     check_output(path)
-    require("a report", "matplotlib", "open3d", "PIL")
+    require("a report", *(["k3d"] if interactive else []), "matplotlib", "open3d", "PIL")
     quality = mesh_quality(pm.complex)
     P = parametrize(pm, most_even_form(pm)) if pm.genus else None
+    sections = {
+        "facts": table("The surface", _facts(pm)),
+        "options": table("Options", options_in_words(options)) if options is not None else "",
+        "remarks": paragraphs(remarks),
+        "pictures": _pictures(_scenes(pm, P, quality, copies), name, size, interactive),
+        "matrix": _matrix(pm),
+        "findings": _findings(pm),
+        "mesh": _mesh(mesh),
+        "advice": paragraphs(advice(quality) + (parametrization_in_words(P) if P else [])),
+        "histograms": "\n".join(histograms(quality, P)),
+        "citation": paragraphs([_CITATION]),
+        "bibtex": escape(Template(_BIBTEX).substitute(version=version("igl_periods"))),
+    }
     page = Template(files(__package__).joinpath("page.html").read_text("utf-8"))
     text = page.substitute(
+        sections,
         title=escape(name),
-        facts=_facts(pm),
-        remarks=_paragraphs(list(remarks)),
-        pictures=_pictures(pm.complex.cell, copies, _scenes(pm, quality, P), size),
-        matrix=_matrix(pm),
-        mesh=f"<pre>{escape(str(mesh))}</pre>" if mesh else "<p>No mesh file was read.</p>",
-        advice=_paragraphs(advice(quality) + (parametrization_in_words(P) if P else [])),
-        histograms="\n".join(_histograms(pm, quality, P)),
-        citation=_paragraphs([_CITATION, f"igl_periods {version('igl_periods')}."]),
+        policy=_POLICY_OF_VIEWERS if interactive else _POLICY,
         version=version("igl_periods"),
     )
     Path(path).write_text(text, encoding="utf-8")
 
 
-def _facts(pm: PeriodMatrix) -> str:
+def _facts(pm: PeriodMatrix) -> list[tuple[str, str]]:
     K = pm.complex
-    return (
-        f"A closed surface of genus {pm.genus}, made of {K.n_faces} triangles with {K.n_edges} "
-        f"edges and {K.n_vertices} vertices."
-    )
+    facts = [
+        ("genus", str(pm.genus)),
+        ("triangles", str(K.n_faces)),
+        ("edges", str(K.n_edges)),
+        ("vertices", str(K.n_vertices)),
+    ]
+    if _is_double(K):
+        facts.append(("double", f"two sheets of {K.n_faces // 2} triangles; pictures show one"))
+    if K.polygons is not None:
+        facts.append(("glued from", f"{len(K.polygons.vertices)} polygons of the plane"))
+    if K.mollification:
+        facts.append(("added to the length of every edge", f"{K.mollification:.3g}"))
+    return facts
 
 
-def _paragraphs(sentences: list[str]) -> str:
-    return "\n".join(f"<p>{escape(sentence)}</p>" for sentence in sentences)
+def _is_double(K: DeltaComplex) -> bool:
+    try:
+        involution(K)
+    except ComplexError:
+        return False
+    return True
+
+
+def _mesh(mesh: MeshReport | None) -> str:
+    """What the report of a mesh says, without the folder that it was in."""
+    if mesh is None:
+        return "<p>No mesh file was read.</p>"
+    text = str(mesh).replace(mesh.file, Path(mesh.file).name)
+    return f'<pre tabindex="0" role="region" aria-label="The mesh file">{escape(text)}</pre>'
 
 
 # ---- Pictures ----
 
 
-def _scenes(pm: PeriodMatrix, quality: MeshQuality, P: Parametrization | None) -> Iterator[Scene]:
-    if P is None:
-        yield plain_scene(pm.complex)
-        return
-    yield cycles_scene(pm)
-    yield checkerboard_scene(P)
-    yield density_scene(P)
-    yield quality_scene(pm.complex, quality)
-    yield cut_scene(P)
+def _scenes(
+    pm: PeriodMatrix, P: Parametrization | None, quality: MeshQuality, copies: Sequence[int]
+) -> dict[str, Scene] | str:
+    """All that there is to see, or why there is nothing."""
+    try:
+        scenes = scenes_of_matrix(pm, P, quality)
+    except ComplexError as error:
+        return str(error)
+    cell = pm.complex.cell
+    return {name: periodic_copies(scene, cell, copies) for name, scene in scenes.items()}
 
 
 def _pictures(
-    cell: Cell | None, copies: Sequence[int], scenes: Iterator[Scene], size: tuple[int, int]
+    scenes: dict[str, Scene] | str, name: str, size: tuple[int, int] | None, interactive: bool
 ) -> str:
+    if isinstance(scenes, str):
+        return _no_pictures(scenes)
+    parts = []
+    if interactive:
+        viewer = viewer_of_scenes(scenes, title=f"{name}, to turn")
+        parts.append(f'<div class="viewer">{viewer.frame(_HEIGHT)}</div>')
     try:
-        figures = [
-            _figure(with_legend(render(scene, size), scene), scene.caption)
-            for scene in (periodic_copies(scene, cell, copies) for scene in scenes)
-        ]
-    except (RenderError, ComplexError) as error:
-        logger.warning("no pictures: %s", error)
-        return f"<p>There are no pictures: {escape(str(error))}</p>"
-    return '<div class="pictures">\n' + "\n".join(figures) + "\n</div>"
+        drawn = render_all(scenes.values(), size or (_BESIDE if interactive else _ALONE))
+    except RenderError as error:
+        return "\n".join([*parts, _no_pictures(str(error))])
+    figures = [
+        figure(png_bytes(picture), "image/png", scene.caption, legend(scene.legend))
+        for picture, scene in zip(drawn, scenes.values())
+    ]
+    return "\n".join([*parts, '<div class="pictures">', *figures, "</div>"])
 
 
-def _figure(picture: NDArray[np.uint8], caption: str) -> str:
-    from PIL import Image
-
-    stream = io.BytesIO()
-    Image.fromarray(picture).save(stream, format="PNG", optimize=True)
-    return _embedded(stream.getvalue(), "image/png", caption)
-
-
-def _embedded(data: bytes, kind: str, caption: str) -> str:
-    source = f"data:{kind};base64,{base64.b64encode(data).decode()}"
-    text = escape(caption, quote=True)
-    return f'<figure><img src="{source}" alt="{text}"><figcaption>{text}</figcaption></figure>'
+def _no_pictures(why: str) -> str:
+    logger.warning("no pictures: %s", why)
+    return f"<p>There are no pictures: {mathematics(why)}</p>"
 
 
 # ---- The matrix ----
@@ -172,22 +239,28 @@ def _embedded(data: bytes, kind: str, caption: str) -> str:
 def _matrix(pm: PeriodMatrix) -> str:
     if pm.genus == 0:
         return "<p>The surface is a sphere: its period matrix is empty, there are no periods.</p>"
-    parts = [
-        "<p>Π in the marking of the pictures: "
-        "Π<sub>kl</sub> is the integral along b<sub>l</sub> of the holomorphic form ζ<sub>k</sub> "
-        "whose integrals along a<sub>1</sub> … a<sub>g</sub> are 0, but for 1 along a<sub>k</sub>."
-        "</p>",
-        _table(pm),
-        f'<p class="bound">{escape(bound_in_words(pm))}</p>',
-        _download(pm),
-    ]
-    return "\n".join(parts)
+    return "\n".join(
+        [
+            _DEFINITION,
+            _shown(pm, pm.matrix, "Π"),
+            f'<p class="bound">{mathematics(bound_in_words(pm))}</p>',
+            "<details><summary>Its real and its imaginary part</summary>",
+            _shown(pm, pm.matrix.real, "Re Π"),
+            _shown(pm, pm.matrix.imag, "Im Π"),
+            "</details>",
+            _download(pm),
+        ]
+    )
 
 
-def _table(pm: PeriodMatrix) -> str:
+def _shown(pm: PeriodMatrix, matrix: NDArray[Any], name: str) -> str:
+    """A matrix with the digits that are known: bounds of entries are bounds of their parts too."""
     if pm.genus > LARGEST_SHOWN:
-        return f"<p>{pm.genus} × {pm.genus} entries; all of them are in the file below.</p>"
-    return f'<div class="scroll">{matrix_html(pm.matrix, pm.entry_bounds)}</div>'
+        return f"<p>{name}: {pm.genus} × {pm.genus} entries; all of them are in the file below.</p>"
+    return (
+        f'<div class="scroll" role="region" tabindex="0" aria-label="{name}">'
+        f"<p>{name} =</p>{matrix_html(matrix, pm.entry_bounds)}</div>"
+    )
 
 
 def _download(pm: PeriodMatrix) -> str:
@@ -198,63 +271,12 @@ def _download(pm: PeriodMatrix) -> str:
     )
 
 
-# ---- Histograms ----
-
-
-def _histograms(pm: PeriodMatrix, quality: MeshQuality, P: Parametrization | None) -> Iterator[str]:
-    yield _histogram(
-        np.degrees(quality.angles.ravel()), "angle (degrees)", "Angles of the mesh.", (0.0, 180.0)
-    )
-    yield _histogram(
-        np.degrees(quality.delaunay_angles.ravel()),
-        "angle (degrees)",
-        f"Angles after {quality.flips} intrinsic Delaunay flips.",
-        (0.0, 180.0),
-    )
-    yield _histogram(
-        quality.weights,
-        "weight",
-        f"Cotangent weights; {quality.non_delaunay_edges} edges have negative ones.",
-    )
-    yield _histogram(
-        np.degrees(quality.cone_angles),
-        "angle (degrees)",
-        "Total angles at the vertices; the surface is flat at 360°.",
-    )
-    if P is not None:
-        share = quality.excess / max(float(quality.excess.max()), 1e-300)
-        yield _histogram(
-            np.log10(np.maximum(share, 1e-9)),
-            "log₁₀ of the share, relative to the largest",
-            f"Shares of the triangles in the bound; half of it originates in "
-            f"{quality.half_of_the_bound} of {quality.excess.size}.",
-        )
-        yield _histogram(
-            P.dilatation,
-            "ratio of stretches",
-            "Conformal distortion of the checkerboard; 1 is conformal.",
-        )
-
-
-def _histogram(
-    values: Floats, label: str, caption: str, limits: tuple[float, float] | None = None
-) -> str:
-    """A histogram, without the extreme half percent at both ends unless limits are given."""
-    from matplotlib import rc_context
-    from matplotlib.figure import Figure
-
-    finite = values[np.isfinite(values)]
-    low, high = limits or np.percentile(finite, [0.5, 99.5])
-    if high - low < 1e-9 * max(1.0, abs(high)):
-        low, high = low - 0.5, high + 0.5
-    with rc_context({"svg.hashsalt": label, "font.size": 9, "axes.spines.top": False,
-                     "axes.spines.right": False}):  # fmt: skip
-        figure = Figure(figsize=(4.4, 2.2), layout="constrained")
-        axes = figure.subplots()
-        axes.hist(finite, bins=60, range=(float(low), float(high)), color="#29508a")
-        axes.set_xlabel(label)
-        axes.set_yticks([])
-        axes.spines["left"].set_visible(False)
-        stream = io.BytesIO()
-        figure.savefig(stream, format="svg", metadata={"Date": None})
-    return _embedded(stream.getvalue(), "image/svg+xml", caption)
+def _findings(pm: PeriodMatrix) -> str:
+    """What Π says about the surface, in tables."""
+    tables = {
+        "Named surfaces near Π": named_surfaces(pm),
+        "Invariants": invariants(pm),
+        "Symmetries": symmetries(pm),
+    }
+    found = [table(caption, rows) for caption, rows in tables.items() if rows]
+    return "\n".join(found) or "<p>A sphere has no moduli.</p>"

@@ -133,6 +133,35 @@ def method_in_words(options: Mapping[str, Any], pm: PeriodMatrix | None = None) 
     return words
 
 
+def options_in_words(options: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """All options of a computation, also those that are as usual; names and values.
+
+    Parameters
+    ----------
+    options : mapping
+        As for :func:`method_in_words`, and ``rigorous``, ``weld``, ``fill_holes``, ``lattice``.
+    """
+    yes = {True: "yes", False: "no"}
+    tolerance = options.get("tolerance")
+    words = [
+        ("edge weights", str(options.get("weights", "intrinsic"))),
+        ("intrinsic Delaunay flips", yes[bool(options.get("delaunay", True))]),
+        ("degree of the functions", str(options.get("degree", 1))),
+        ("bound asked for", "none" if tolerance is None else f"{tolerance:g}"),
+        ("proved in ball arithmetic", yes[bool(options.get("rigorous"))]),
+        ("mesh repaired", yes[bool(options.get("repair"))]),
+        ("double taken", yes[bool(options.get("double"))]),
+    ]
+    names = {
+        "component": "component",
+        "weld": "edges welded within, in diagonals",
+        "fill_holes": "holes filled up to, in edges",
+        "lattice": "translations",
+    }
+    given = {key: options.get(key) for key in names}
+    return words + [(names[key], str(value)) for key, value in given.items() if value is not None]
+
+
 def _tolerance_in_words(tolerance: float, pm: PeriodMatrix) -> str:
     assert pm.bound is not None
     more = ", which is more" if pm.bound > tolerance else ""

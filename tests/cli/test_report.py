@@ -8,11 +8,20 @@ import pytest
 DATA = Path(__file__).parents[2] / "data"
 
 
+@pytest.fixture(autouse=True)
+def _small_pictures(monkeypatch):
+    for size in ("_BESIDE", "_ALONE"):
+        monkeypatch.setattr(f"igl_periods.reports.page.{size}", (40, 30))
+
+
 def test_a_page_about_a_gluing(command, tmp_path, capsys):
     page = tmp_path / "page.html"
-    assert command("report", DATA / "omega_1.json", "-o", page) == 0
+    assert command("report", DATA / "omega_1.json", "-o", page, "--no-interactive") == 0
     assert capsys.readouterr().out == f"wrote {page}\n"
-    assert "omega_1.json" in page.read_text(encoding="utf-8")
+    text = page.read_text(encoding="utf-8")
+    assert "omega_1.json" in text
+    assert "<iframe" not in text
+    assert '<th scope="row">bound asked for</th><td>none</td>' in text
 
 
 def test_the_page_needs_a_name(command, capsys):
@@ -26,6 +35,8 @@ def test_the_page_says_how_its_matrix_was_computed(command, tmp_path):
     page = tmp_path / "page.html"
     assert command("report", DATA / "omega_1.json", "-o", page, "--tolerance", "1e-5") == 0
     text = page.read_text(encoding="utf-8")
-    assert "A bound of at most 1e-05 was asked for; the one reached is" in text
-    (bound,) = re.findall(r"known to within (\S+), relative to its size; no entry", text)
-    assert float(bound) <= 1.1e-5
+    assert "A bound of at most 10<sup>−5</sup> was asked for; the one reached is" in text
+    assert "<iframe" in text
+    (number,) = re.findall(r"known to within (\S+), relative to its size; no entry", text)
+    digits, power = re.fullmatch(r"(\S+)·10<sup>−(\d+)</sup>", number).groups()
+    assert float(f"{digits}e-{power}") <= 1.1e-5

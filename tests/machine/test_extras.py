@@ -98,6 +98,7 @@ def doors(tmp_path):
             "pictures",
             lambda: write_report(tmp_path / "r.html", pm, name="torus"),
         ),
+        "turning": (("k3d",), "pictures", pm.show),
         "texture": (
             ("PIL",),
             "pictures",
@@ -107,7 +108,9 @@ def doors(tmp_path):
     }
 
 
-@pytest.mark.parametrize("door", ["render", "legend", "save", "report", "texture", "drawing"])
+@pytest.mark.parametrize(
+    "door", ["render", "legend", "save", "report", "turning", "texture", "drawing"]
+)
 def test_every_door_names_its_extra(monkeypatch, tmp_path, door):
     packages, extra, call = doors(tmp_path)[door]
     without(monkeypatch, *packages)
@@ -130,6 +133,8 @@ def test_the_package_of_batches_names_its_extra(tmp_path):
         (("render", LAWSON, "-o", "p.png"), "open3d", "pictures"),
         (("view", LAWSON), "open3d", "pictures"),
         (("report", LAWSON, "-o", "r.html"), "matplotlib", "pictures"),
+        (("report", LAWSON, "-o", "r.html"), "k3d", "pictures"),
+        (("view", LAWSON, "-o", "v.html"), "k3d", "pictures"),
         (("texture", LAWSON, "-o", "t.glb"), "PIL", "pictures"),
         (("batch", LAWSON, "-o", "b.parquet"), "pyarrow", "batch"),
         (("batch", LAWSON, "-o", "b.parquet"), "tqdm", "batch"),

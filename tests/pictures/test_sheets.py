@@ -8,7 +8,8 @@ import igl_periods as ip
 from igl_periods.complexes import edge_ends, half_edge_ends
 from igl_periods.complexes.doubling import double
 from igl_periods.pictures.sheets import Sheet, surface_in_space
-from igl_periods.surfaces import triply_periodic_minimal_surface
+from igl_periods.surfaces import double_polygon, flat_torus, triply_periodic_minimal_surface
+from igl_periods.topology import canonical_cycles
 
 
 def quotient(name="G", n=2):
@@ -85,3 +86,26 @@ def test_surfaces_without_a_place_are_refused():
     K = ip.DeltaComplex.from_squares([((0, 0), (0, 2)), ((0, 1), (0, 3))])
     with pytest.raises(ip.ComplexError, match="no positions in space"):
         Sheet.of(K)
+
+
+def test_polygons_lie_in_the_plane_as_they_were_given():
+    octagon = double_polygon(5)
+    sheet = Sheet.of(octagon)
+    assert sheet.unfolded
+    assert octagon.polygons is not None
+    corners = np.concatenate(octagon.polygons.xy)
+    assert len(sheet.V) == len(corners)
+    assert np.array_equal(sheet.source[sheet.F], octagon.corner_vertex)
+    V = sheet.V[sheet.F]
+    sides = np.linalg.norm(np.roll(V, -1, axis=1) - np.roll(V, 1, axis=1), axis=2)
+    np.testing.assert_allclose(sides, octagon.lengths, rtol=1e-12)
+
+
+def test_walks_in_the_plane_come_in_pieces_that_hang_together():
+    pm = ip.period_matrix(flat_torus(0.3 + 0.9j, 3))
+    sheet = Sheet.developed(ip.parametrize(pm, [1.0]))
+    for walk in canonical_cycles(pm.complex, pm.cocycles):
+        pieces = sheet.pieces(walk)
+        start, end = sheet.ends(walk)
+        assert np.concatenate([piece[:-1] for piece in pieces]).tolist() == start.tolist()
+        assert np.concatenate([piece[1:] for piece in pieces]).tolist() == end.tolist()

@@ -4,14 +4,14 @@ import base64
 import io
 import json
 import re
-import shutil
-import subprocess
 from html.parser import HTMLParser
 from pathlib import Path
 
 import numpy as np
 import pytest
 from PIL import Image
+from support.browser import browse
+from support.random_surfaces import torus_of_revolution
 
 import igl_periods as ip
 from igl_periods.errors import RenderError
@@ -20,9 +20,6 @@ from igl_periods.reports.page import write_report
 from igl_periods.surfaces import flat_torus, triply_periodic_minimal_surface
 
 LAWSON = Path(__file__).parents[2] / "data" / "lawson_2_1.off"
-
-
-BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
 
 
 class Page(HTMLParser):
@@ -55,11 +52,12 @@ class Page(HTMLParser):
 
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
-    """The report of a mesh of genus 2, with small pictures."""
+    """The report of a mesh of genus 2, with small pictures and without a surface to turn."""
     path = tmp_path_factory.mktemp("report") / "report.html"
     V, F, mesh = ip.load_mesh(LAWSON)
     pm = ip.period_matrix(V, F).reduced()
-    write_report(path, pm, name="<Lawson & co>", mesh=mesh, size=(120, 90))
+    how = {"mesh": mesh, "options": {"degree": 1}, "size": (120, 90), "interactive": False}
+    write_report(path, pm, name="<Lawson & co>", **how)
     return path, pm
 
 
@@ -105,24 +103,76 @@ def test_the_page_holds_the_matrix_and_what_is_known_about_it(written):
     assert "Period matrices of polyhedral surfaces" in page.text
 
 
-def test_surfaces_without_positions_have_a_report_without_pictures(tmp_path):
+def test_the_page_tells_options_invariants_and_how_to_cite(written):
+    page = Page(written[0])
+    for words in (
+        "edge weightsintrinsic",
+        "degree of the functions1",
+        "proved in ball arithmeticno",
+        "Lawson ξ2,1",
+        "this does not prove it",
+        "I25 / I10",
+        "hyperellipticyes",
+        "@incollection{BobenkoMercatSchmies2011,",
+        "@software{igl_periods,",
+        f"version = {{{ip.__version__}}}",
+    ):
+        assert words in page.text, words
+    text = written[0].read_text(encoding="utf-8")
+    assert str(LAWSON.parent) not in text
+    assert "<i>a</i><sub>1</sub>" in text
+    assert "h^" not in page.text
+
+
+def test_the_page_can_be_read_without_seeing_it(written):
+    text = written[0].read_text(encoding="utf-8")
+    assert '<html lang="en">' in text
+    assert re.findall(r"<h(\d)", text) == ["1", *6 * ["2"]]
+    assert all(re.findall(r'<img [^>]*alt="([^"]*)"', text))
+    assert text.count("<img") == text.count("alt=")
+    assert text.count("<th ") == text.count('<th scope="row">') > 10
+    assert text.count('<table class="facts"><caption>') == 5
+
+
+def test_legends_are_below_the_pictures(written):
+    text = written[0].read_text(encoding="utf-8")
+    legends = re.findall(r'<ul class="legend">(.*?)</ul>', text)
+    assert [legend.count("<li>") for legend in legends] == [4, 3, 3]
+    assert all("</figcaption>" in text.partition(legend)[2][:40] for legend in legends)
+
+
+def test_surfaces_without_positions_are_drawn_in_the_plane(tmp_path):
     path = tmp_path / "torus.html"
-    write_report(path, ip.period_matrix(flat_torus(0.2 + 1.1j, 4)), name="torus")
+    write_report(path, ip.period_matrix(flat_torus(0.2 + 1.1j, 4)), name="torus", size=(60, 45))
     page = Page(path)
-    assert page.data("image/png") == []
+    assert len(page.data("image/png")) == 5
     assert len(page.data("image/svg+xml")) == 6
-    assert "There are no pictures: the surface has no positions in space" in page.text
+    assert page.tags.count("iframe") == 1
+    assert "script-src 'unsafe-inline'; worker-src blob:" in path.read_text(encoding="utf-8")
     assert "No mesh file was read" in page.text
 
 
+def test_what_cannot_be_drawn_has_a_report_without_pictures(tmp_path, caplog):
+    V, F = torus_of_revolution(2.0, 0.7, 8, 6)
+    path = tmp_path / "torus.html"
+    write_report(path, ip.period_matrix(np.concatenate([V, V], axis=1), F), name="torus")
+    page = Page(path)
+    assert page.data("image/png") == []
+    assert "iframe" not in page.tags
+    assert "There are no pictures: the surface lies in R^6" in page.text
+    assert "no pictures: the surface lies in R^6" in caplog.text
+
+
 def test_machines_that_cannot_draw_make_a_report_without_pictures(tmp_path, monkeypatch, caplog):
-    def render(*_):
+    def render_all(*_):
         raise RenderError("libEGL.so.1 is missing")
 
-    monkeypatch.setattr(report, "render", render)
+    monkeypatch.setattr(report, "render_all", render_all)
     V, F, _ = ip.load_mesh(LAWSON)
     write_report(tmp_path / "report.html", ip.period_matrix(V, F), name="Lawson")
-    assert "There are no pictures: libEGL.so.1 is missing" in Page(tmp_path / "report.html").text
+    page = Page(tmp_path / "report.html")
+    assert "There are no pictures: libEGL.so.1 is missing" in page.text
+    assert page.tags.count("iframe") == 1
     assert "no pictures: libEGL.so.1 is missing" in caplog.text
 
 
@@ -130,7 +180,7 @@ def test_spheres_and_uncertified_matrices(tmp_path, monkeypatch):
     path = tmp_path / "report.html"
     V = [[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
     sphere = ip.period_matrix(V, [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
-    write_report(path, sphere, name="sphere", size=(80, 60))
+    write_report(path, sphere, name="sphere", size=(80, 60), interactive=False)
     page = Page(path)
     assert len(page.data("image/png")) == 1
     assert "The surface is a sphere" in page.text
@@ -142,39 +192,36 @@ def test_spheres_and_uncertified_matrices(tmp_path, monkeypatch):
 
 @pytest.mark.slow
 def test_a_browser_shows_the_page_without_complaint(written, tmp_path):
-    browser = next(filter(None, map(shutil.which, BROWSERS)), None)
-    if browser is None:
-        pytest.skip(f"no browser: none of {', '.join(BROWSERS)} is installed")
-    broken = tmp_path / "broken.html"
-    text = written[0].read_text(encoding="utf-8")
-    broken.write_text(text.replace("</body>", '<img src="http://example.invalid/x.png"></body>'))
-    complaints, picture = browse(browser, written[0], tmp_path)
-    assert complaints == []
-    # The pictures are there: colours, not only text.
-    assert np.mean(np.ptp(picture.astype(int), axis=2) > 60) > 0.01
-    # A request to the network would be refused, and seen here.
-    (complaint,), _ = browse(browser, broken, tmp_path)
-    assert "Content Security Policy" in complaint
+    path, pm = written
+    write_report(tmp_path / "turning.html", pm, name="Lawson", size=(120, 90))
+    turning = "document.querySelector('iframe').contentWindow.viewer.then((v) => v.layers.first)"
 
+    async def work(page):
+        return await page.evaluate(turning), await page.picture()
 
-def browse(browser, page, folder):
-    """What the browser complains about in its console, and what it shows."""
-    screenshot = folder / "page.png"
-    options = ["--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr"]
-    options += [f"--user-data-dir={folder / 'profile'}", "--window-size=900,1600"]
-    done = subprocess.run(
-        [browser, *options, f"--screenshot={screenshot}", page.as_uri()],
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=True,
+    (first, picture), page = browse(
+        (tmp_path / "turning.html").as_uri(), tmp_path / "1", work, ("--window-size=900,1600",)
     )
-    complaints = [line for line in done.stderr.splitlines() if "CONSOLE" in line]
-    return complaints, np.asarray(Image.open(screenshot).convert("RGB"))
+    assert first == 0
+    assert page.complaints == []
+    # The pictures are there: colours, not only text.
+    assert np.mean(np.ptp(picture, axis=2) > 60) > 0.005
+    # A request to the network would be refused, and seen here.
+    broken = tmp_path / "broken.html"
+    text = path.read_text(encoding="utf-8")
+    broken.write_text(text.replace("</main>", '<img src="http://example.invalid/x.png"></main>'))
+
+    async def look(page):
+        return await page.picture()
+
+    _, page = browse(broken.as_uri(), tmp_path / "2", look)
+    (complaint,) = page.complaints
+    assert "Content Security Policy" in complaint
 
 
 def test_remarks_are_on_the_page_and_bad_places_are_refused(tmp_path, monkeypatch):
     pm = ip.period_matrix(flat_torus(0.2 + 1.1j, 4))
+    monkeypatch.setattr(report, "_pictures", lambda *_: "")
     write_report(tmp_path / "r.html", pm, name="torus", remarks=["Bound < 1 was asked for."])
     assert "Bound < 1 was asked for." in Page(tmp_path / "r.html").text
     monkeypatch.setattr(report, "mesh_quality", None)
@@ -186,7 +233,7 @@ def test_cells_of_periodic_surfaces_are_shown_in_copies(tmp_path):
     V, F, lattice = triply_periodic_minimal_surface("D", 1)
     pm = ip.period_matrix(ip.DeltaComplex.from_mesh(V, F, lattice=lattice)).reduced()
     path = tmp_path / "page.html"
-    write_report(path, pm, name="D", size=(64, 48), copies=(2, 1, 1))
+    write_report(path, pm, name="D", size=(64, 48), copies=(2, 1, 1), interactive=False)
     text = path.read_text(encoding="utf-8")
     assert "There are no pictures" not in text
     assert text.count("<img") > 5

@@ -10,7 +10,7 @@ from support.random_surfaces import (
 import igl_periods as ip
 from igl_periods.display import rounded_up
 from igl_periods.periods.quality import mesh_quality
-from igl_periods.reports.words import advice, method_in_words
+from igl_periods.reports.words import advice, method_in_words, options_in_words
 from igl_periods.surfaces import flat_torus, square_tiled_surface
 
 
@@ -69,3 +69,16 @@ def test_what_is_not_usual_is_said():
     assert len(method_in_words({**rest, "delaunay": False}, pm)) == 5
     # Without a matrix only the surface can be spoken of.
     assert len(method_in_words({**rest, "degree": 4})) == 3
+
+
+def test_all_options_are_told():
+    usual = dict(options_in_words({}))
+    assert usual["edge weights"] == "intrinsic"
+    assert usual["intrinsic Delaunay flips"] == "yes"
+    assert (usual["degree of the functions"], usual["bound asked for"]) == ("1", "none")
+    assert [usual[k] for k in ("mesh repaired", "double taken")] == ["no", "no"]
+    chosen = {"degree": 3, "tolerance": 1e-5, "double": True, "component": 2, "lattice": None}
+    told = dict(options_in_words(chosen))
+    assert told | {"component": "2"} == told
+    assert (told["bound asked for"], told["double taken"]) == ("1e-05", "yes")
+    assert "translations" not in told
