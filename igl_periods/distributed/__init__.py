@@ -27,8 +27,9 @@ keeps the surface, 115 bytes a triangle, for the result, and its own part.  At m
 in 32 bits; PETSc with 32-bit integers goes up to 4 · 10⁹.
 
 **Flips.**  Marching cubes leave every fifth edge to be flipped.  That takes 1.6 µs for a triangle
-of a rank (2.7 with both cores busy), and 400 bytes while it lasts.  One round along the seams was
-enough for 2 to 16 parts; its strips have :math:`16 \sqrt{nN}` triangles, which rank 0 flips alone.
+of a rank (2.7 with both cores busy), and 600 bytes while it lasts, the part included.  One round
+along the seams was enough for 2 to 16 parts; its strips have :math:`16 \sqrt{nN}` triangles, which
+rank 0 flips alone.
 
 **Weak scaling.**  Measured with ``scripts/measure/weak_scaling.py`` for genus 2 and residuals of
 1e-8, on surfaces of 10⁴ or 5 · 10⁴ up to 6 · 10⁵ vertices (n vertices, N ranks, 2g solutions of k
