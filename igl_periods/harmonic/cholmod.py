@@ -5,6 +5,12 @@ for systems of traces on their edges, is minimum degree.  A matrix is factored o
 sides are solved for in groups, which is faster than one by one and takes less memory than all at
 once.
 
+Minimum degree has ties, on regular meshes nearly everywhere, and the last unknown of least degree
+is eliminated first.  Meshes that were refined have their old vertices first; these should go first,
+which leaves a coarser mesh of the same kind, so CHOLMOD gets all unknowns in the opposite order.  On
+meshes divided into four the factor is a quarter to a sixth smaller; on others it is as large as
+before.
+
 References
 ----------
 Chen, Davis, Hager, Rajamanickam, "Algorithm 887: CHOLMOD" (2008).
@@ -16,7 +22,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csc_array, csc_matrix
+from scipy.sparse import csc_array, csc_matrix, csr_matrix
 from sksparse.cholmod import CholmodNotPositiveDefiniteError, Factor, analyze
 
 from igl_periods.arrays import Floats
@@ -32,14 +38,16 @@ _LARGE = 100_000
 
 @dataclass(frozen=True, eq=False)
 class CholeskyFactor:
-    """L with A = L Lᵀ up to a permutation; None for a matrix without rows."""
+    """L with A = L Lᵀ up to a permutation, A with its unknowns reversed; None for one without rows."""
 
     size: int
     _factor: Factor | None
 
 
-def factor(lower: csc_matrix) -> CholeskyFactor:
+def factor(lower: csc_matrix | csr_matrix) -> CholeskyFactor:
     """Factor a symmetric positive definite matrix, given by its lower triangle.
+
+    By rows is better than by columns: those are converted.
 
     Raises
     ------
@@ -49,17 +57,28 @@ def factor(lower: csc_matrix) -> CholeskyFactor:
     if n == 0:
         return CholeskyFactor(0, None)
     tidy = release_freed_memory if n > _LARGE else lambda: None
+    reversed_lower = _reversed(csr_matrix(lower))
     tidy()
     # Supernodal is L Lᵀ, which fails on matrices that are not positive definite; the simplicial
     # L D Lᵀ would go on.
     with without_lost_threads():
-        symbolic = analyze(lower, mode="supernodal", ordering_method="amd")
+        symbolic = analyze(reversed_lower, mode="supernodal", ordering_method="amd")
         tidy()
         try:
-            symbolic.cholesky_inplace(lower)
+            symbolic.cholesky_inplace(reversed_lower)
         except CholmodNotPositiveDefiniteError as error:
             raise NotPositiveDefiniteError("the matrix is not positive definite.") from error
     return CholeskyFactor(n, symbolic)
+
+
+def _reversed(lower: csr_matrix) -> csc_matrix:
+    """The lower triangle of the matrix with its rows and columns in the opposite order.
+
+    What has been by rows is by columns then, so that nothing but the order in memory changes.
+    """
+    n = lower.shape[0]
+    start = lower.indptr[-1] - lower.indptr[::-1]
+    return csc_matrix((lower.data[::-1], n - 1 - lower.indices[::-1], start), shape=(n, n))
 
 
 def solve(factor: CholeskyFactor, load: Floats | csc_array, out: Floats | None = None) -> Floats:
@@ -95,4 +114,4 @@ def _solution(factor: CholeskyFactor, load: Floats) -> Floats:
     if factor._factor is None:
         return np.empty(load.shape)
     with without_lost_threads():
-        return np.asarray(factor._factor(load))
+        return np.asarray(factor._factor(load[::-1]))[::-1]
