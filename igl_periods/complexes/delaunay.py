@@ -137,7 +137,7 @@ def delaunay_flips(K: DeltaComplex) -> tuple[DeltaComplex, list[Flips]]:
         suspects = mesh.bad_edges(_distinct(K.n_edges, waiting, *(near for _, near in portions)))
     flipped = replace(
         K,
-        lengths=mesh.rounded_lengths()[mesh.edge].reshape(-1, 3),
+        lengths=mesh.length.astype(np.float64)[mesh.edge].reshape(-1, 3),
         twin=mesh.twin.reshape(-1, 3),
         edge=mesh.edge.reshape(-1, 3),
         sign=mesh.sign.reshape(-1, 3),
@@ -305,16 +305,12 @@ class _FlippableMesh:
         self._distort(here // 3, there // 3, new)
         return flips, around
 
-    def rounded_lengths(self) -> Floats:
-        """The lengths of the edges as doubles."""
-        return self.length.astype(np.float64)
-
     def distortion_when_rounded(self) -> Floats:
         """The distortion of each face by the flips so far, and by rounding the lengths to double.
 
         That is by 2⁻⁵³, an eighth of the unit; lengths that did not change are not rounded.
         """
-        rounded = self.rounded_lengths()
+        rounded = self.length.astype(np.float64)
         half_edge = self.half_edge[rounded != self.length]
         changed = _distinct(self.owner.size, half_edge // 3, self.twin[half_edge] // 3)
         distortion = self.distortion.copy()
