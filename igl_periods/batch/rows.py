@@ -28,7 +28,7 @@ import threading
 import time
 import warnings
 from collections.abc import Callable, Iterator
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, fields, replace
 from importlib.metadata import version
 from os import PathLike
 from typing import Any
@@ -145,6 +145,11 @@ class BatchOptions:
         }
         for name, value in checked.items():
             object.__setattr__(self, name, value)
+
+    def __repr__(self) -> str:
+        default = {f.name: f.default for f in fields(self)}
+        chosen = {k: v for k, v in asdict(self).items() if v != default[k]}
+        return f"BatchOptions({', '.join(f'{k}={v!r}' for k, v in chosen.items())})"
 
     def as_json(self) -> str:
         """All options, in one order."""

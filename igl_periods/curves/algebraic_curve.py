@@ -109,16 +109,18 @@ class AlgebraicCurve:
         """Invariants of degree 0, in balls: rational functions on the moduli space."""
         if not self.invariants or self.weights == (0,):
             return dict(self.invariants)
-        values = absolute_invariants(list(self.invariants.values()), self.weights)
+        with flint.ctx.workprec(self._bits):
+            values = absolute_invariants(list(self.invariants.values()), self.weights)
         return dict(zip(self.invariants, values, strict=True))
 
     @cached_property
     def recognised_invariants(self) -> dict[str, AlgebraicNumber | None]:
         """The absolute invariants as algebraic numbers, where they are recognised."""
-        return {
-            name: _ZERO if vanishes(z) else recognise_number(z, degree=_INVARIANT_DEGREE)
-            for name, z in self.absolute_invariants.items()
-        }
+        with flint.ctx.workprec(self._bits):
+            return {
+                name: _ZERO if vanishes(z) else recognise_number(z, degree=_INVARIANT_DEGREE)
+                for name, z in self.absolute_invariants.items()
+            }
 
     @cached_property
     def field_of_moduli(self) -> NumberField | None:
@@ -128,6 +130,11 @@ class AlgebraicCurve:
         numbers = list(self.recognised_invariants.values())
         known = [x for x in numbers if x is not None]
         return generated_field(known) if numbers and len(known) == len(numbers) else None
+
+    @property
+    def _bits(self) -> int:
+        """The precision of the balls, which the precision of the moment must not lower."""
+        return max((z.bits() for z in self.invariants.values()), default=flint.ctx.prec)
 
     @property
     def evidence(self) -> Evidence | None:
@@ -150,7 +157,8 @@ class AlgebraicCurve:
         if self.weights == (0,):
             return bool(self.invariants["j"].overlaps(other.invariants["j"]))
         one, two = list(self.invariants.values()), list(other.invariants.values())
-        return same_point(one, two, self.weights)
+        with flint.ctx.workprec(max(self._bits, other._bits)):
+            return same_point(one, two, self.weights)
 
     @property
     def equation(self) -> str:

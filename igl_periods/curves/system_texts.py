@@ -148,7 +148,7 @@ def _latex_ball(z: flint.acb) -> str:
 def _latex_real(x: flint.arb) -> str:
     if x.is_exact() and x == x.floor() and abs(x) < 1e9:
         return str(int(float(x)))
-    text = ball_digits(x, int(_DIGITS_PER_BIT * flint.ctx.prec))
+    text = ball_digits(x, int(_DIGITS_PER_BIT * max(x.bits(), flint.ctx.prec)))
     mantissa, _, exponent = text.partition("e")
     return rf"{mantissa} \cdot 10^{{{int(exponent)}}}" if exponent else mantissa
 

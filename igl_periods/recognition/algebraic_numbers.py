@@ -8,9 +8,10 @@ candidate.  A factor without a root there is proved wrong, and dropped.
 A candidate always exists, so it says nothing by itself.  *Evidence* compares two numbers.  Among
 the N integer polynomials whose coefficients, weighted by the powers of z, are at most as large,
 
-.. math:: N \cdot \Big( \frac{|P'(z)|\, \delta}{s} \Big)^m, \qquad m = 1 \text{ (real)}, 2,
+.. math:: N \cdot \frac{(|P'(z)|\, \delta)^m}{s}, \qquad m = 1 \text{ (real)}, 2,
 
-come as close by chance, where s is the size of their values and m counts the real coordinates.
+come as close by chance, where s is the length or the area over which their values are spread and m
+counts the real coordinates.
 ``digits`` is minus the logarithm of the bracket, what the ball says; ``spent`` is log N; and what
 is ``left_over`` are the digits that a coincidence would have had to guess.  A random number has
 nothing left over, and a polynomial of the height ``random_height``.
@@ -26,6 +27,7 @@ Cohen, "A course in computational algebraic number theory" (1993), section 2.7.2
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -295,11 +297,23 @@ def _evidence_in_box(
     box = max(abs(x) * w for x, w in zip(c, weights, strict=True))
     # Half of them, since −P is as good as P; but boxes of two kinds are tried.
     spent = sum(math.log10(2 * (box // w) + 1) for w in weights)
-    spread = sum(((size**k * box / w) ** 2 for k, w in enumerate(weights)), flint.arb(0)).sqrt()
-    digits = -coordinates * min(_log10(miss / spread), 0.0)
+    values = [z.mid() ** k * flint.arb(box) / w for k, w in enumerate(weights)]
+    digits = max(_log10(_spread(values, real=real)) - coordinates * _log10(miss), 0.0)
     graded = sum(math.log10(w) - math.log10(min(weights)) for w in weights)
     height = (graded - coordinates * _log10(error / size)) / len(c)
     return Evidence(digits, spent, max(0.0, height))
+
+
+def _spread(values: list[flint.acb], *, real: bool) -> flint.arb:
+    """Where sums of these values with coefficients from −1 to 1 are spread: a length, or an area.
+
+    In the plane it is the sum of the parallelograms that two of them span, however long the
+    longest value is: where all but one are short, sums fill a narrow strip.
+    """
+    if real:
+        return sum((x.abs_upper() for x in values), flint.arb(0))
+    pairs = itertools.combinations(values, 2)
+    return sum((abs((x.conjugate() * y).imag).abs_upper() for x, y in pairs), flint.arb(0))
 
 
 def _log10(x: flint.arb) -> float:

@@ -57,7 +57,7 @@ def test_json_says_nothing_else(plate, tmp_path, capsys):
         (["--picture", "p.txt"], "a picture has a name in .png or .jpg"),
         (["--picture", "p.png", "--point", "1"], "a point is X,Y"),
         (["--lattice", "1,0"], "--lattice has no effect on polygons"),
-        (["--double"], "--double has no effect on capacities"),
+        (["--double"], "there is no option --double"),
     ],
 )
 def test_wrong_usage(plate, capsys, arguments, message):

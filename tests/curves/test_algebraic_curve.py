@@ -36,6 +36,18 @@ def test_invariants_decide_which_curve_it_is(bolza):
     assert not bolza.same_invariants(ip.curve_of_form([-1, 0, 0, 0, 0, 0, 0, 1, 0]))
 
 
+def test_no_digits_are_lost_to_the_precision_of_the_moment():
+    with flint.ctx.workdps(50):
+        curve = ip.curve(l_shape_matrix(flint.arb(2)))
+    assert flint.ctx.prec == 53
+    assert all(z.rad() < 1e-45 for z in curve.absolute_invariants.values())
+    assert str(curve.recognised_invariants["I6"]) == "38380/6440067"
+    assert str(curve.field_of_moduli) == "Q"
+    with flint.ctx.workdps(50):
+        other = ip.curve(l_shape_matrix(flint.arb(2) + flint.arb(10) ** -30))
+    assert not curve.same_invariants(other)
+
+
 def test_quartics_are_compared_too():
     flint.ctx.dps = 40
     klein = ip.curve(exact_matrices.klein())

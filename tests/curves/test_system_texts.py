@@ -118,3 +118,9 @@ def test_refused():
     for write in (ip.to_latex, ip.to_sage, ip.to_magma, ip.to_pari):
         with pytest.raises(TypeError, match="a number, a matrix or a curve"):
             write(SimpleNamespace())
+
+
+def test_latex_has_all_digits_that_are_known():
+    with flint.ctx.workdps(60):
+        z = flint.acb(flint.arb(2).sqrt(), flint.arb(3).sqrt())
+    assert "1.4142135623730950488016887242096980785696718753769" in ip.to_latex(z)

@@ -1,6 +1,5 @@
 """The surfaces that come with the package."""
 
-import json
 import re
 from pathlib import Path
 
@@ -21,7 +20,7 @@ def test_samples_are_in_the_wheel():
 def test_samples_have_the_genus_that_is_said(name):
     file = ip.sample_files()[name]
     if file.suffix == ".json":
-        K = ip.DeltaComplex.from_gluing(**json.loads(file.read_text()))
+        K = ip.DeltaComplex.from_json(file.read_text())
     else:
         K = ip.DeltaComplex.from_mesh(*ip.load_mesh(file)[:2])
     said = re.search(r"genus (\d)", SAMPLES[name][1])

@@ -68,6 +68,17 @@ def test_random_numbers_stay_unrecognised(digits):
             assert recognise_number(both, degree=10) is None
 
 
+@pytest.mark.parametrize("parts", [(1, 0), (0, 1), (1, 1), (1, 1e-6)])
+def test_random_numbers_of_any_size_stay_unrecognised(parts):
+    """Where z is large or small the values of polynomials fill a narrow strip, not a disc."""
+    generator = random.Random(1)
+    flint.ctx.dps = 30
+    for _ in range(500):
+        size = 10.0 ** generator.uniform(-14, 14)
+        x, y = (generator.uniform(-1, 1) * size * part for part in parts)
+        assert recognise_number(flint.acb(x, y) * flint.arb(2).log(), degree=3) is None
+
+
 def test_a_random_number_gets_the_height_that_is_foretold():
     """The shortest polynomial of degree 3 of π to 40 digits is as high as the evidence says."""
     radius = flint.arb(10) ** -40
