@@ -64,6 +64,7 @@ from igl_periods.display import (
 )
 from igl_periods.errors import ComplexError, NotASiegelPointError, NotPositiveDefiniteError
 from igl_periods.harmonic import energy_factor
+from igl_periods.machine import threads_for
 from igl_periods.options import in_words
 from igl_periods.siegel import SIEGEL_GENUS_LIMIT, check_symplectic, siegel_reduce, to_flint
 from igl_periods.symplectic import (
@@ -361,12 +362,13 @@ def siegel_reduced(
     whole γ is applied to the given Dirichlet matrix, so rounding is counted once.
     """
     reduced, total = pm, np.eye(2 * pm.genus, dtype=np.int64)
-    for _ in range(_MOST_REDUCTIONS):
-        gamma = siegel_reduce(reduced.matrix, max_genus=max_genus).gamma
-        if np.array_equal(gamma, np.eye(2 * pm.genus)):
-            break
-        total = product(gamma, total)
-        reduced = pm.change_basis(total)
+    with threads_for(2.0 * len(total) ** 3):
+        for _ in range(_MOST_REDUCTIONS):
+            gamma = siegel_reduce(reduced.matrix, max_genus=max_genus).gamma
+            if np.array_equal(gamma, np.eye(2 * pm.genus)):
+                break
+            total = product(gamma, total)
+            reduced = pm.change_basis(total)
     return reduced, total
 
 
