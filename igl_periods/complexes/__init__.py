@@ -65,9 +65,11 @@ from .gluings import (
     face_components,
     MOST_TRIANGLES,
     index_type,
+    ends_of_sides,
     next_corner,
     orientable_faces,
     reversing_sides,
+    sorted_by_rows,
 )
 from .glued_squares import periodic_grid, squares
 from .half_edges import edge_ends, forward_half_edges, half_edge_ends, walk_vertices
@@ -129,6 +131,8 @@ __all__ = [
     "MOST_TRIANGLES",
     "index_type",
     "next_corner",
+    "ends_of_sides",
+    "sorted_by_rows",
     "periodic_grid",
     "squares",
     "face_components",

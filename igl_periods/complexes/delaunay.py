@@ -28,7 +28,7 @@ Bobenko, Springborn, "A discrete Laplace–Beltrami operator for simplicial surf
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import cast
+from typing import NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,7 +42,7 @@ from .delta_complex import DeltaComplex
 from .diagonals import other_diagonal
 from .gluings import next_corner
 from .half_edges import forward_half_edges
-from .triangles import cotangents, is_strict, length_sensitivity
+from .triangles import cotangents, length_sensitivity, shapes
 
 # Edges this close to cocircular are left alone: flipped by rounding, they would flip for ever.
 _TOLERANCE = 1e-12
@@ -120,12 +120,11 @@ def intrinsic_delaunay(K: DeltaComplex, cochains: csr_array) -> tuple[DeltaCompl
 
 def delaunay_flips(K: DeltaComplex) -> tuple[DeltaComplex, list[Flips]]:
     """The intrinsic Delaunay complex, and the rounds of flips that lead to it."""
-    cot = cotangents(K.lengths)
-    bad = _is_bad(cot.ravel(), cot.ravel()[K.twin.ravel()])
-    suspects = _distinct(K.n_edges, K.edge.ravel()[bad])
+    cot, half_edge = cotangents(K.lengths).ravel(), forward_half_edges(K)
+    suspects = np.flatnonzero(_is_bad(cot[half_edge], cot[K.twin.ravel()[half_edge]]))
     if suspects.size == 0:
         return K, []
-    mesh = _FlippableMesh.of(K, cot)
+    mesh = _FlippableMesh.of(K, cot, half_edge)
     order = np.random.default_rng(0)
     rounds: list[Flips] = []
     while suspects.size:
@@ -147,7 +146,7 @@ def delaunay_flips(K: DeltaComplex) -> tuple[DeltaComplex, list[Flips]]:
         suspects = mesh.bad_edges(_distinct(K.n_edges, waiting, *(near for _, near in portions)))
     flipped = replace(
         K,
-        lengths=mesh.lengths.reshape(-1, 3).astype(np.float64),
+        lengths=mesh.length.astype(np.float64)[mesh.edge].reshape(-1, 3),
         twin=mesh.twin.reshape(-1, 3),
         edge=mesh.edge.reshape(-1, 3),
         sign=mesh.sign.reshape(-1, 3),
@@ -197,11 +196,45 @@ def _carried(cochains: csr_array, rounds: list[Flips]) -> csr_array:
     return csr_array((found.data, (found.row, met[found.col])), shape=cochains.shape)
 
 
+class _Quadrilaterals(NamedTuple):
+    """The half-edges of two faces p A B and q B A: A B, B p, p A, and B A, A q, q B."""
+
+    h: Ints
+    bp: Ints
+    pa: Ints
+    t: Ints
+    aq: Ints
+    qb: Ints
+
+    @classmethod
+    def at(cls, h: Ints, twin: Ints) -> _Quadrilaterals:
+        t = twin[h]
+        return cls(h, next_corner(h), next_corner(h, 2), t, next_corner(t), next_corner(t, 2))
+
+
+class _NewFaces(NamedTuple):
+    """The faces p A q, above, and q B p, below, that flips will make."""
+
+    edge: Ints
+    old: _Quadrilaterals
+    diagonal: Floats  # extended numbers
+    ulps: Floats  # a bound of its relative error in units of 2⁻⁵⁰
+    above: Floats  # cotangents
+    below: Floats
+    sensitivity_above: Floats
+    sensitivity_below: Floats
+
+    def at(self, chosen: NDArray[np.bool_]) -> _NewFaces:
+        edge, old, *numbers = self
+        old = _Quadrilaterals(*(side[chosen] for side in old))
+        return _NewFaces(edge[chosen], old, *(array[chosen] for array in numbers))
+
+
 @dataclass(eq=False)
 class _FlippableMesh:
     """The arrays of a complex, flat by half-edge, while edges are being flipped."""
 
-    lengths: Floats  # extended numbers
+    length: Floats  # of each edge; extended numbers
     twin: Ints
     edge: Ints
     sign: NDArray[np.int8]
@@ -213,15 +246,15 @@ class _FlippableMesh:
     owner: Ints  # scratch: which edge claims a face
 
     @classmethod
-    def of(cls, K: DeltaComplex, cot: Floats) -> _FlippableMesh:
+    def of(cls, K: DeltaComplex, cot: Floats, half_edge: Ints) -> _FlippableMesh:
         return cls(
-            lengths=cast(Floats, K.lengths.flatten().astype(np.longdouble)),
+            length=cast(Floats, K.lengths.ravel()[half_edge].astype(np.longdouble)),
             twin=K.twin.flatten(),
             edge=K.edge.flatten(),
             sign=K.sign.flatten(),
             corner_vertex=K.corner_vertex.flatten(),
-            cotangents=cot.ravel(),
-            half_edge=forward_half_edges(K),
+            cotangents=cot,
+            half_edge=half_edge,
             distortion=np.zeros(K.n_faces) if K.distortion is None else K.distortion.copy(),
             slot=np.arange(K.twin.size),
             owner=np.empty(K.n_faces, dtype=np.int64),
@@ -261,88 +294,83 @@ class _FlippableMesh:
                  \   /                    \ | /
                    q                        q
         """
-        edges, h, diagonal, ulps = self._flippable(edges)
-        t = self.twin[h]
-        bp, pa, aq, qb = next_corner(h, 1), next_corner(h, 2), next_corner(t, 1), next_corner(t, 2)
-        here, there = 3 * (h // 3), 3 * (t // 3)
+        new = self._better(edges, _Quadrilaterals.at(self.half_edge[edges], self.twin))
+        edges, (h, bp, pa, t, aq, qb) = new.edge, new.old
+        here, there = h - h % 3, t - t % 3
         p, a, q, b = (self.corner_vertex[corner] for corner in (h, bp, t, aq))
         old = np.concatenate([aq, pa, bp, qb])
-        new = np.concatenate([here, here + 2, there, there + 2])
-        sides = self.edge[[aq, pa, bp, qb]]
-        flips = Flips(edges, sides[0], -self.sign[aq], sides[1], -self.sign[pa], sides[2], sides[3])
+        moved = np.concatenate([here, here + 2, there, there + 2])
+        around = self.edge[old]
+        first, second, third, fourth = around.reshape(4, -1)
+        flips = Flips(edges, first, -self.sign[aq], second, -self.sign[pa], third, fourth)
 
-        self._move(old, new)
-        self._place_diagonal(edges, here + 1, there + 1, diagonal)
-        for corner, vertex in zip(range(3), (p, a, q), strict=True):
-            self.corner_vertex[here + corner] = vertex
-        for corner, vertex in zip(range(3), (q, b, p), strict=True):
-            self.corner_vertex[there + corner] = vertex
-        faces = np.concatenate([here, there])[:, None] + np.arange(3)
-        self.cotangents[faces] = cotangents(self.lengths[faces])
-        self._distort(here // 3, there // 3, ulps)
-        return flips, self.edge[new]
+        self._move(old, moved)
+        self._place_diagonal(edges, here + 1, there + 1, new.diagonal)
+        # The sides of the new faces are A q, q p, p A and B p, p q, q B.
+        for face, corners, cot in ((here, (p, a, q), new.above), (there, (q, b, p), new.below)):
+            for s in range(3):
+                self.corner_vertex[face + s] = corners[s]
+                self.cotangents[face + s] = cot[:, s]
+        self._distort(here // 3, there // 3, new)
+        return flips, around
 
     def distortion_when_rounded(self) -> Floats:
         """The distortion of each face by the flips so far, and by rounding the lengths to double.
 
         That is by 2⁻⁵³, an eighth of the unit; lengths that did not change are not rounded.
         """
-        lengths = self.lengths.reshape(-1, 3)
-        rounded = lengths.astype(np.float64)
-        changed = np.flatnonzero(np.any(rounded != lengths, axis=1))
+        rounded = self.length.astype(np.float64)
+        half_edge = self.half_edge[rounded != self.length]
+        changed = _distinct(self.owner.size, half_edge // 3, self.twin[half_edge] // 3)
         distortion = self.distortion.copy()
-        distortion[changed] += 0.125 * length_sensitivity(rounded[changed])
+        lengths = rounded[self.edge.reshape(-1, 3)[changed]]
+        distortion[changed] += 0.125 * length_sensitivity(lengths)
         return distortion
 
-    def _distort(self, here: Ints, there: Ints, ulps: Floats) -> None:
+    def _distort(self, here: Ints, there: Ints, new: _NewFaces) -> None:
         """Both new faces inherit what was wrong with the old ones, and the rounded diagonal."""
         before = np.maximum(self.distortion[here], self.distortion[there])
-        for faces in (here, there):
-            lengths = self.lengths.reshape(-1, 3)[faces].astype(np.float64)
-            self.distortion[faces] = before + ulps * length_sensitivity(lengths)
+        self.distortion[here] = before + new.ulps * new.sensitivity_above
+        self.distortion[there] = before + new.ulps * new.sensitivity_below
 
-    def _flippable(self, edges: Ints) -> tuple[Ints, Ints, Floats, Floats]:
-        """The edges that get better, their half-edges, new diagonals, and the rounding of those.
+    def _better(self, edges: Ints, old: _Quadrilaterals) -> _NewFaces:
+        """What flips make of the edges that get better by them.
 
         Rounding can make a new triangle degenerate, or no better than the old one; then the edge
         stays as it is.
         """
-        h = self.half_edge[edges]
-        t = self.twin[h]
-        diagonal, ulps = self._diagonal(h, t)
-        good = np.ones(edges.size, dtype=bool)
-        after = np.zeros(edges.size)
-        for one, other in (
-            (next_corner(h, 2), next_corner(t, 1)),
-            (next_corner(h, 1), next_corner(t, 2)),
-        ):
-            triangle = np.stack([diagonal, self.lengths[one], self.lengths[other]], axis=1)
-            good &= is_strict(triangle)
-            with np.errstate(divide="ignore", invalid="ignore"):
-                after += cotangents(triangle)[:, 0]
-        good &= after > self.cotangents[h] + self.cotangents[t]
-        return edges[good], h[good], diagonal[good], ulps[good]
-
-    def _diagonal(self, h: Ints, t: Ints) -> tuple[Floats, Floats]:
-        """Distance of p and q, and a bound of its relative error in units of 2⁻⁵⁰."""
-        sides = (h, next_corner(h, 2), next_corner(h, 1), next_corner(t, 1), next_corner(t, 2))
-        diagonal, error = other_diagonal(*(self.lengths[side] for side in sides))
-        return diagonal, (_FINER * error).astype(np.float64)
+        base, pb, pa, qa, qb = (
+            self.length[edges],
+            *(self.length[self.edge[side]] for side in (old.bp, old.pa, old.aq, old.qb)),
+        )
+        diagonal, error = other_diagonal(base, pa, pb, qa, qb)
+        above, cot_above, sensitivity_above = shapes(np.stack([qa, diagonal, pa]).T)
+        below, cot_below, sensitivity_below = shapes(np.stack([pb, diagonal, qb]).T)
+        new = _NewFaces(
+            edges,
+            old,
+            diagonal,
+            (_FINER * error).astype(np.float64),
+            *(array.astype(np.float64) for array in (cot_above, cot_below)),
+            *(array.astype(np.float64) for array in (sensitivity_above, sensitivity_below)),
+        )
+        after = new.above[:, 1] + new.below[:, 1]
+        good = above & below & (after > self.cotangents[old.h] + self.cotangents[old.t])
+        return new if good.all() else new.at(good)
 
     def _move(self, old: Ints, new: Ints) -> None:
         """Move half-edges to new places, with all that belongs to them."""
         self.slot[old] = new
         twin = self.slot[self.twin[old]]
         self.slot[old] = old
-        self.lengths[new], self.sign[new] = self.lengths[old], self.sign[old]
-        self.edge[new] = self.edge[old]
+        self.sign[new], self.edge[new] = self.sign[old], self.edge[old]
         self.twin[new] = twin
         self.twin[twin] = new
         forward = self.sign[new] > 0
         self.half_edge[self.edge[new[forward]]] = new[forward]
 
     def _place_diagonal(self, edges: Ints, h: Ints, t: Ints, length: Floats) -> None:
-        self.lengths[h] = self.lengths[t] = length
+        self.length[edges] = length
         self.edge[h] = self.edge[t] = edges
         self.sign[h], self.sign[t] = 1, -1
         self.twin[h], self.twin[t] = t, h

@@ -36,13 +36,14 @@ def other_diagonal(
         Lengths of the sides; doubles or extended numbers.
     """
     height = (
-        double_areas(np.stack([base, pa, pb], 1)) + double_areas(np.stack([base, qa, qb], 1))
+        double_areas(np.stack([base, pa, pb]).T) + double_areas(np.stack([base, qa, qb]).T)
     ) / base
-    from_a = foot(base, pa, pb) - foot(base, qa, qb)
-    from_b = foot(base, qb, qa) - foot(base, pb, pa)
-    near_a = pa + qa < pb + qb
-    distance = np.hypot(np.where(near_a, from_a, from_b), height)
-    return distance, 1.25 * (1.0 + np.where(near_a, pa + qa, pb + qb) / distance)
+    from_a, from_b = pa + qa, pb + qb
+    near_a = from_a < from_b
+    near_p, far_p = np.where(near_a, pa, pb), np.where(near_a, pb, pa)
+    near_q, far_q = np.where(near_a, qa, qb), np.where(near_a, qb, qa)
+    distance = np.hypot(foot(base, near_p, far_p) - foot(base, near_q, far_q), height)
+    return distance, 1.25 * (1.0 + np.minimum(from_a, from_b) / distance)
 
 
 def foot(base: Floats, near: Floats, far: Floats) -> Floats:

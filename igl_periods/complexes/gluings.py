@@ -45,25 +45,40 @@ def twins_of_faces(faces: Ints, labels: Ints) -> tuple[Ints, Bools]:
     MeshError
         If an edge has more than two faces.
     """
-    small = faces.astype(index_type(faces.size))
-    tail, head = np.roll(small, -1, 1).ravel(), np.roll(small, 1, 1).ravel()
-    low, high = np.minimum(tail, head), np.maximum(tail, head)
-    order = _sorted_by(high, labels.size)
-    by_low = _sorted_by(low[order], labels.size)
-    order = order[by_low]
-    low, high = low[order], high[order]
-    paired = (low[1:] == low[:-1]) & (high[1:] == high[:-1])
+    tail, head = ends_of_sides(faces, index_type(2 * faces.size))
+    # Half-edges by their lower ends, and there by their higher ones; with each, which way it runs.
+    tagged = np.arange(0, 2 * tail.size, 2, dtype=tail.dtype)
+    tagged += tail > head
+    by_low = sorted_by_rows(tagged, np.minimum(tail, head), np.maximum(tail, head), labels.size)
+    high, order, upward = by_low.indices, by_low.data >> 1, (by_low.data & 1).astype(bool)
+    paired = high[1:] == high[:-1]
+    ends_of_rows = by_low.indptr[1:-1]
+    paired[ends_of_rows[(ends_of_rows > 0) & (ends_of_rows < high.size)] - 1] = False
     if np.any(paired[1:] & paired[:-1]):
-        _raise_crowded_edge(low * np.int64(labels.size) + high, order, labels[tail], labels[head])
-    if paired[0::2].all() and not paired[1::2].any():
-        one, other = order[0::2], order[1::2]
-    else:
-        one, other = order[:-1][paired], order[1:][paired]
+        low = np.repeat(np.arange(labels.size), np.diff(by_low.indptr))
+        _raise_crowded_edge(low * labels.size + high, order, labels[tail], labels[head])
+    if not (paired[0::2].all() and not paired[1::2].any()):
+        first = np.flatnonzero(paired)
+        glued = np.stack([first, first + 1], axis=1).ravel()
+        order, upward = order[glued], upward[glued]
+    one, other = order[0::2], order[1::2]
     twin = np.full(tail.size, -1, dtype=np.int64)
     twin[one], twin[other] = other, one
     same = np.zeros(tail.size, dtype=bool)
-    same[one] = same[other] = tail[one] == tail[other]
+    alike = upward[0::2] == upward[1::2]
+    if alike.any():
+        same[one[alike]] = same[other[alike]] = True
     return twin.reshape(-1, 3), same.reshape(-1, 3)
+
+
+def ends_of_sides(
+    faces: Ints, index: type[np.signedinteger[Any]]
+) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Corners at which the sides of (m, 3) faces start and end, two arrays of shape (3 m,)."""
+    tail, head = np.empty(faces.shape, dtype=index), np.empty(faces.shape, dtype=index)
+    for s in range(3):
+        tail[:, s], head[:, s] = faces[:, s - 2], faces[:, s - 1]
+    return tail.ravel(), head.ravel()
 
 
 def index_type(largest: int) -> type[np.signedinteger[Any]]:
@@ -71,10 +86,17 @@ def index_type(largest: int) -> type[np.signedinteger[Any]]:
     return np.int32 if largest < np.iinfo(np.int32).max else np.int64
 
 
-def _sorted_by(keys: NDArray[np.signedinteger[Any]], n: int) -> NDArray[np.signedinteger[Any]]:
-    """The stable order of keys below n, in linear time: the transpose of a sparse matrix."""
-    rows = np.arange(keys.size + 1, dtype=keys.dtype)
-    return csr_array((rows[:-1], keys, rows), shape=(keys.size, n)).tocsc().data
+def sorted_by_rows(
+    values: NDArray[Any], rows: NDArray[Any], columns: NDArray[Any], n: int
+) -> csr_array:
+    """Values sorted by row, and there by column, entries of one place side by side."""
+    entries = coo_array((values, (rows, columns)), shape=(n, n))
+    # Or they would be added up.
+    entries.has_canonical_format = True
+    by_rows = entries.tocsr()
+    by_rows.has_sorted_indices = False
+    by_rows.sort_indices()
+    return by_rows
 
 
 def _raise_crowded_edge(key: Ints, order: Ints, tail: Ints, head: Ints) -> None:
@@ -174,12 +196,14 @@ def fans_are_whole(twin: Ints, corner_vertex: Ints, n_vertices: int) -> bool:
     Much faster than :func:`corner_vertices`, where the vertices are known already.
     """
     corners = corner_vertex.ravel()
-    half_edge: Ints = np.arange(corners.size)
+    index = index_type(corners.size)
     # The corner at the same vertex in the face across the side before it.
-    onward = twin.ravel()[next_corner(half_edge, 2)]
-    onward = next_corner(onward, 2)
-    first: Ints = np.empty(n_vertices, dtype=np.int64)
-    first[corners] = half_edge
+    across = np.empty(twin.shape, dtype=index)
+    for s in range(3):
+        across[:, s] = twin[:, s - 1]
+    onward = next_corner(across.ravel(), 2)
+    first = np.empty(n_vertices, dtype=index)
+    first[corners] = np.arange(corners.size, dtype=index)
     met, corner = 0, first
     while corner.size:
         met += corner.size
@@ -191,8 +215,9 @@ def fans_are_whole(twin: Ints, corner_vertex: Ints, n_vertices: int) -> bool:
 
 def next_corner(half_edge: Ints, steps: int = 1) -> Ints:
     """The half-edge (or corner) ``steps`` further round in the same face."""
-    corner = half_edge % 3
-    return half_edge + np.where(corner + steps < 3, steps, steps - 3)
+    # Quotients by a constant are fast, remainders are not.
+    corner = half_edge - 3 * (half_edge // 3)
+    return np.where(corner < 3 - steps, half_edge + steps, half_edge + (steps - 3))
 
 
 def components_of(one: Ints, two: Ints, n: int) -> tuple[int, NDArray[np.int32]]:

@@ -11,7 +11,7 @@ import numpy as np
 from igl_periods.arrays import Ints
 
 from .delta_complex import DeltaComplex
-from .gluings import next_corner
+from .gluings import ends_of_sides, next_corner
 
 
 def forward_half_edges(K: DeltaComplex) -> Ints:
@@ -30,9 +30,7 @@ def edge_ends(K: DeltaComplex) -> tuple[Ints, Ints]:
 
 def half_edge_ends(K: DeltaComplex) -> tuple[Ints, Ints]:
     """Vertices at which each half-edge starts and ends, two arrays of shape (3 m,)."""
-    tail = np.roll(K.corner_vertex, -1, axis=1).ravel()
-    head = np.roll(K.corner_vertex, 1, axis=1).ravel()
-    return tail, head
+    return ends_of_sides(K.corner_vertex, np.int64)
 
 
 def walk_vertices(K: DeltaComplex, walk: Ints) -> Ints:

@@ -56,9 +56,7 @@ def _in_blocks(
 @_in_blocks
 def double_areas(lengths: Floats) -> Floats:
     """Twice the area of each triangle, by Kahan's formula; 0 where it is degenerate.  (m,)."""
-    a, b, c = _descending(lengths)
-    product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c))
-    return 0.5 * np.sqrt(np.maximum(product, 0.0))
+    return _double_areas(*_descending(lengths))
 
 
 @_in_blocks
@@ -70,13 +68,7 @@ def cotangents(lengths: Floats) -> Floats:
     two: with the squares taken first, the right angles of a needle drown in rounding, and
     Delaunay flips must not be decided by rounding.
     """
-    quadruple_area = 2.0 * double_areas(lengths)
-    cot = np.empty_like(lengths)
-    for s in range(3):
-        a, l1, l2 = lengths[:, s], lengths[:, s - 2], lengths[:, s - 1]
-        b, c = np.maximum(l1, l2), np.minimum(l1, l2)
-        cot[:, s] = (c * c + (b - a) * (b + a)) / quadruple_area
-    return cot
+    return _cotangents(lengths, double_areas(lengths))
 
 
 def apexes(lengths: Floats) -> tuple[Floats, Floats]:
@@ -108,15 +100,25 @@ def slacks(lengths: Floats) -> Floats:
 @_in_blocks
 def is_strict(lengths: Floats) -> NDArray[np.bool_]:
     """Whether the triangle inequality holds with more slack than rounding can hide; shape (m,)."""
-    a, b, c = _descending(lengths)
-    return c - (a - b) > _SMALLEST_SLACK * a
+    return _is_strict(*_descending(lengths))
 
 
 @_in_blocks
 def length_sensitivity(lengths: Floats) -> Floats:
     """The relative change of metric of each triangle per relative change of its sides; (m,)."""
-    l0, l1, l2 = lengths.T
-    return 2.0 * (l0 * l1 * l2) * (l0 + l1 + l2) / double_areas(lengths) ** 2
+    return _length_sensitivity(lengths, double_areas(lengths))
+
+
+def shapes(lengths: Floats) -> tuple[NDArray[np.bool_], Floats, Floats]:
+    """:func:`is_strict`, :func:`cotangents` and :func:`length_sensitivity`, from one area.
+
+    Where a triangle is not strict, the other two may be anything.
+    """
+    descending = _descending(lengths)
+    area = _double_areas(*descending)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        cot, sensitivity = _cotangents(lengths, area), _length_sensitivity(lengths, area)
+    return _is_strict(*descending), cot, sensitivity
 
 
 def mollify(lengths: Floats) -> tuple[Floats, float]:
@@ -157,6 +159,30 @@ def mollify(lengths: Floats) -> tuple[Floats, float]:
 
 def _in_words(sides: Floats) -> str:
     return ", ".join(f"{side:.6g}" for side in sides)
+
+
+def _double_areas(a: Floats, b: Floats, c: Floats) -> Floats:
+    product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c))
+    return np.asarray(0.5 * np.sqrt(np.maximum(product, 0.0)))
+
+
+def _cotangents(lengths: Floats, double_area: Floats) -> Floats:
+    quadruple_area = 2.0 * double_area
+    cot = np.empty_like(lengths)
+    for s in range(3):
+        a, l1, l2 = lengths[:, s], lengths[:, s - 2], lengths[:, s - 1]
+        b, c = np.maximum(l1, l2), np.minimum(l1, l2)
+        cot[:, s] = (c * c + (b - a) * (b + a)) / quadruple_area
+    return cot
+
+
+def _is_strict(a: Floats, b: Floats, c: Floats) -> NDArray[np.bool_]:
+    return np.asarray(c - (a - b) > _SMALLEST_SLACK * a)
+
+
+def _length_sensitivity(lengths: Floats, double_area: Floats) -> Floats:
+    l0, l1, l2 = lengths.T
+    return np.asarray(2.0 * (l0 * l1 * l2) * (l0 + l1 + l2) / double_area**2)
 
 
 def _descending(lengths: Floats) -> tuple[Floats, Floats, Floats]:

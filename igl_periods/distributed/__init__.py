@@ -6,7 +6,8 @@ r"""One mesh on many ranks: the period matrix with MPI and PETSc.
     from igl_periods.distributed import period_matrix
     pm = period_matrix(V, F)        # on rank 0, where V and F are; on the others period_matrix()
 
-What has the size of the mesh and is not integer work is divided: the Laplace equations, their
+What has the size of the mesh and is more than its topology is divided: Delaunay flips, inside the
+parts and then along their seams (:mod:`.flips`, :mod:`.pieces`), the Laplace equations, their
 solutions, and the Gram matrix D of the gradients of the forms c + df (:mod:`.partition`,
 :mod:`.potentials`).  Each rank holds the potentials at the vertices of its own faces, the same
 values as its neighbours have there; so its forms are those of the whole surface on its faces, and
@@ -17,13 +18,18 @@ is the energy matrix of closed forms whatever f is.  It is summed from these squ
 right-hand sides and solutions: by Dirichlet's principle it is never below the exact one, and a
 solution that is stopped early costs sharpness of the bound and not its truth.
 
-**What stays on rank 0.**  Reading, gluing, marking and flipping are integer work on the whole mesh,
-and rank 0 does it alone; the parts are then cut out and sent one after the other, so that no
-other rank ever holds the mesh.  Rank 0 needs 220 bytes a triangle where nothing is flipped, up to
-390 where marching cubes have every fifth edge flipped, and 2 to 3 µs, with 0.3 µs more whenever N
-doubles; after that it keeps the surface, 115 bytes a triangle, for the result.  At most
+**What stays on rank 0.**  Reading, gluing and marking are integer work on the whole mesh, and rank
+0 does it alone; the parts are then cut out and sent one after the other, so that no other rank ever
+holds the mesh.  Rank 0 needs 175 bytes a triangle to glue and 245 to mark, whether edges have to be
+flipped or not, and 1.3 µs on four ranks, with 0.1 to 0.3 µs more whenever N doubles; after that it
+keeps the surface, 115 bytes a triangle, for the result, and its own part.  At most
 :math:`2^{31}/3`, 715 million, triangles go through SciPy's graph searches, which count half-edges
 in 32 bits; PETSc with 32-bit integers goes up to 4 · 10⁹.
+
+**Flips.**  Marching cubes leave every fifth edge to be flipped.  That takes 1.6 µs for a triangle
+of a rank (2.7 with both cores busy), and 600 bytes while it lasts, the part included.  One round
+along the seams was enough for 2 to 16 parts; its strips have :math:`16 \sqrt{nN}` triangles, which
+rank 0 flips alone.
 
 **Weak scaling.**  Measured with ``scripts/measure/weak_scaling.py`` for genus 2 and residuals of
 1e-8, on surfaces of 10⁴ or 5 · 10⁴ up to 6 · 10⁵ vertices (n vertices, N ranks, 2g solutions of k
@@ -58,10 +64,12 @@ N       vertices a rank   memory a rank   ghosts         an iteration        mul
 4,096   0.12 million      0.16 GB         1,000 (8 kB)   16 ms + 1.0 ms      1.9 s
 ======  ================  ==============  =============  ==================  ================
 
-Messages do not matter before some ten thousand ranks.  What does is rank 0: an hour or two of
-integer work, with 220 to 390 GB, before the others have anything to do.  So it is the *solution*
-that is divided.  On one machine its factor takes 2.5 n log₂ n numbers at the least, 290 GB more,
-and a time like :math:`n^{3/2}`: from 1.7 s for 6 · 10⁵ vertices, eleven hours.
+Flips add 27 s on 64 ranks and less than a second on 4,096; their strips, 10 million triangles on
+1,024 ranks, are 1 % of the mesh.  Messages do not matter before some ten thousand ranks.  What does
+is rank 0: half an hour to an hour of integer work, with 245 GB, before the others have anything to
+do. So flips and *solution* are divided, and the topology is not.  On one machine its factor takes
+2.5 n log₂ n numbers at the least, 290 GB more, and a time like :math:`n^{3/2}`: from 1.7 s for 6 ·
+10⁵ vertices, eleven hours.
 
 References
 ----------

@@ -52,6 +52,13 @@ def scatter(comm: Intracomm, make: Callable[[int], T] | None) -> T:
     return _agreed(comm, *_attempt(lambda: make(0)))
 
 
+def gathered_on_root(comm: Intracomm, mine: T) -> list[T] | None:
+    """What each rank has, on rank 0; None on the others."""
+    from mpi4py.util import pkl5
+
+    return pkl5.Intracomm(comm).gather(mine)
+
+
 def _attempt(work: Callable[[], T]) -> tuple[T | None, Exception | None]:
     try:
         return work(), None

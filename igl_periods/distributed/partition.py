@@ -16,7 +16,7 @@ faces of another one.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -24,6 +24,8 @@ from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from igl_periods.arrays import Ints
 from igl_periods.complexes import DeltaComplex, half_edge_ends
+
+from .pieces import Piece
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,6 +46,18 @@ class Part:
     complex: DeltaComplex
     cochains: csr_array
     n_owned: int
+
+    @classmethod
+    def of(cls, piece: Piece, start: int, end: int) -> Part:
+        """The part of the rank that owns the places from ``start`` up to ``end``."""
+        K, cochains, _ = piece.opened()
+        corners = K.corner_vertex
+        owned = (start <= corners) & (corners < end)
+        ghosts = np.unique(corners[~owned])
+        local = np.where(owned, corners - start, end - start + np.searchsorted(ghosts, corners))
+        labels = np.concatenate([np.arange(start, end), ghosts])
+        K = replace(K, corner_vertex=local, n_vertices=labels.size, labels=labels)
+        return cls(K, cochains, int(end - start))
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,42 +96,28 @@ class Partition:
         first_face = np.concatenate([[0], np.cumsum(np.bincount(owner, minlength=n_ranks))])
         return cls(K, cochains.T.tocsr(), place, first, faces, first_face)
 
-    def part(self, rank: int) -> Part:
-        """What a rank holds."""
+    def piece(self, rank: int) -> Piece:
+        """The faces of a rank, with the places of their corners."""
         K = self.complex
         faces = self.faces[self.first_face[rank] : self.first_face[rank + 1]]
-        edges, first, edge = np.unique(K.edge[faces], return_index=True, return_inverse=True)
-        # Of an edge between two ranks either may have the half-edge that runs against it.
-        turned = K.sign[faces].ravel()[first]
-        edge = edge.reshape(-1, 3)
-        values = self.cochains_by_edge[edges].tocoo()
-        cochains = csr_array(
-            (values.data * turned[values.row], (values.col, values.row)),
-            shape=(values.shape[1], edges.size),
-        )
-        corner_vertex, labels = self._vertices(faces, rank)
-        part = DeltaComplex(
+        edges = np.unique(K.edge[faces])
+        return Piece(
             lengths=K.lengths[faces],
-            twin=_cut_open(K.twin, faces),
-            edge=edge,
-            sign=K.sign[faces] * turned[edge],
-            corner_vertex=corner_vertex,
-            n_vertices=labels.size,
-            n_edges=edges.size,
-            labels=labels,
-            mollification=K.mollification,
-            distortion=None if K.distortion is None else K.distortion[faces],
+            edge=K.edge[faces],
+            sign=K.sign[faces],
+            vertex=self.place[K.corner_vertex[faces]],
+            distortion=np.zeros(faces.size) if K.distortion is None else K.distortion[faces],
+            edges=edges,
+            by_edge=self.cochains_by_edge[edges],
         )
-        return Part(part, cochains, int(self.first[rank + 1] - self.first[rank]))
 
-    def _vertices(self, faces: Ints, rank: int) -> tuple[Ints, Ints]:
-        """The corners of faces, numbered for a rank, and the places of these vertices."""
-        start, end = self.first[rank], self.first[rank + 1]
-        corners = self.place[self.complex.corner_vertex[faces]]
-        owned = (start <= corners) & (corners < end)
-        ghosts = np.unique(corners[~owned])
-        local = np.where(owned, corners - start, end - start + np.searchsorted(ghosts, corners))
-        return local, np.concatenate([np.arange(start, end), ghosts])
+    def owned(self, rank: int) -> tuple[int, int]:
+        """The first of the places that a rank owns, and the first of the next rank."""
+        return int(self.first[rank]), int(self.first[rank + 1])
+
+    def share(self, rank: int) -> tuple[Piece, tuple[int, int]]:
+        """The faces of a rank, and the places that it owns: what its part is made of."""
+        return self.piece(rank), self.owned(rank)
 
 
 def bisected(K: DeltaComplex, n_ranks: int) -> tuple[Ints, Ints]:
@@ -149,11 +149,3 @@ def _bisected(graph: csr_array, vertices: Ints, first: Ints) -> Ints:
     return np.concatenate(
         [_bisected(graph[half][:, half], vertices[half], ends) for half, ends in halves]
     )
-
-
-def _cut_open(twin: Ints, faces: Ints) -> Ints:
-    """The gluing among some of the faces, ascending; -1 towards the others."""
-    other = twin[faces]
-    place = np.searchsorted(faces, other // 3)
-    inside = faces[np.minimum(place, faces.size - 1)] == other // 3
-    return np.where(inside, 3 * place + other % 3, -1)

@@ -12,16 +12,18 @@ from igl_periods.complexes import (
     DeltaComplex,
     MarkedComplex,
     as_complex,
-    intrinsic_delaunay,
 )
 from igl_periods.harmonic import allowance_for_loss, dirichlet_matrix, extreme_sensitivity
+from igl_periods.machine import release_freed_memory
 from igl_periods.periods import PeriodMatrix, certified_period_matrix
 from igl_periods.run_log import stage
 from igl_periods.topology import mark
 
 from .collective import on_every_rank, on_root, scatter
+from .flips import delaunay_on_all_ranks
 from .libraries import load_petsc, world
 from .partition import Part, Partition
+from .pieces import Piece
 from .potentials import harmonic_potentials
 
 if TYPE_CHECKING:
@@ -100,21 +102,31 @@ def period_matrix(
 def _distributed(
     comm: Intracomm, surface: Any, F: ArrayLike | None, delaunay: bool
 ) -> tuple[MarkedComplex | None, Part]:
-    """Mark the surface and divide it, on rank 0; the part of each rank."""
+    """The marked surface on rank 0, and the part of each rank after flips on all."""
+    marked, piece, owned = _scattered(comm, surface, F)
+    if delaunay:
+        with stage("Delaunay flips"):
+            piece = delaunay_on_all_ranks(comm, piece)
+    return marked, on_every_rank(comm, lambda: Part.of(piece, *owned))
+
+
+def _scattered(
+    comm: Intracomm, surface: Any, F: ArrayLike | None
+) -> tuple[MarkedComplex | None, Piece, tuple[int, int]]:
+    """Mark the surface and divide it, on rank 0; the faces of each rank, and the places it owns."""
 
     def divide() -> tuple[MarkedComplex, Partition]:
         K = as_complex(surface, F)
         with stage("homology"):
-            given = flipped = mark(K)
-        if delaunay:
-            with stage("Delaunay flips"):
-                flipped = given.after(intrinsic_delaunay)
+            given = mark(K)
         with stage("partition"):
-            return given, Partition.of(flipped.complex, flipped.cochains, comm.size)
+            return given, Partition.of(given.complex, given.cochains, comm.size)
 
-    # The flipped complex ends with this function: the parts are all that is needed of it.
+    # The partition ends with this function: the pieces are all that is needed of it.
     marked, partition = on_root(comm, divide) or (None, None)
-    return marked, scatter(comm, partition.part if partition else None)
+    release_freed_memory()
+    with stage("scattering"):
+        return marked, *scatter(comm, partition.share if partition else None)
 
 
 def _energies(

@@ -96,7 +96,7 @@ def harmonic_potentials(comm: Intracomm, part: Part, rtol: float, max_iterations
                 local.array[:] = flow.toarray()[:, 0]
             flux.ghostUpdate(petsc.InsertMode.ADD, petsc.ScatterMode.REVERSE)
             solver.solve(flux, f)
-            unsolved += not solver.is_converged
+            unsolved += solver.getConvergedReason() <= 0
             _log(solver, j, k)
             f.ghostUpdate(petsc.InsertMode.INSERT, petsc.ScatterMode.FORWARD)
             with f.localForm() as local:

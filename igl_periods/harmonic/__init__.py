@@ -35,7 +35,7 @@ Chen, Davis, Hager, Rajamanickam, "Algorithm 887: CHOLMOD" (2008).
 """
 
 from .laplace_matrix import laplacian, outflow
-from .cholmod import CholeskyFactor, factor, solve
+from .cholmod import CholeskyFactor, factor, factor_operations, solve
 from .potentials import factored, factored_laplacian, harmonic_potentials, solutions
 from .grouped_sums import sum_in_groups
 from .energies import (
@@ -85,6 +85,7 @@ __all__ = [
     "factored_laplacian",
     "CholeskyFactor",
     "factor",
+    "factor_operations",
     "solve",
     "factored",
     "solutions",

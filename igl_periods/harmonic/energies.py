@@ -23,7 +23,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.sparse import csc_array, csc_matrix, csr_array
+from scipy.sparse import csc_array, csr_array, csr_matrix
 
 from igl_periods.arrays import Floats
 from igl_periods.complexes import DeltaComplex, cotan_weights, edge_ends
@@ -74,7 +74,7 @@ class HarmonicProblem:
         )
 
 
-def harmonic_problem(K: DeltaComplex, cochains: csr_array) -> tuple[csc_matrix, HarmonicProblem]:
+def harmonic_problem(K: DeltaComplex, cochains: csr_array) -> tuple[csr_matrix, HarmonicProblem]:
     """The grounded Laplacian of a surface, and the problem of closed (k, n_edges) cochains on it.
 
     Together they are all that is needed of the surface, and neither refers to it.  On a sphere
@@ -90,13 +90,13 @@ def harmonic_problem(K: DeltaComplex, cochains: csr_array) -> tuple[csc_matrix, 
         extreme_jumps=Jumps.of(K, cochains, sensitivity),
     )
     if cochains.shape[0] == 0:
-        return csc_matrix((0, 0)), problem
+        return csr_matrix((0, 0)), problem
     return lower_laplacian(K.n_vertices, tail, head, rho, 1), problem
 
 
 def harmonic_problem_of_many(
     K: DeltaComplex, cochains: csr_array
-) -> tuple[csc_matrix, HarmonicProblem]:
+) -> tuple[csr_matrix, HarmonicProblem]:
     """The same as :func:`harmonic_problem`, with residuals if there are many forms."""
     laplacian, problem = harmonic_problem(K, cochains)
     if cochains.shape[0] < _MANY_FORMS:

@@ -28,7 +28,7 @@ Chen, Davis, Hager, Rajamanickam, "Algorithm 887: CHOLMOD" (2008).
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import csc_array, csc_matrix, csr_array
+from scipy.sparse import csc_array, csr_array, csr_matrix
 
 from igl_periods.arrays import Floats, Ints
 from igl_periods.complexes import DeltaComplex, edge_ends, index_type
@@ -48,12 +48,12 @@ def laplacian(K: DeltaComplex, weights: Floats) -> csc_array:
     return csc_array(lower + strict.T)
 
 
-def grounded_laplacian(K: DeltaComplex, weights: Floats) -> csc_matrix:
+def grounded_laplacian(K: DeltaComplex, weights: Floats) -> csr_matrix:
     """Lower triangle of the Laplacian without row and column 0; CHOLMOD reads no more."""
     return lower_laplacian(K.n_vertices, *edge_ends(K), weights, 1)
 
 
-def lower_laplacian(n: int, tail: Ints, head: Ints, weights: Floats, first: int) -> csc_matrix:
+def lower_laplacian(n: int, tail: Ints, head: Ints, weights: Floats, first: int) -> csr_matrix:
     """Lower triangle of dᵀ ρ d, from row and column ``first`` on.
 
     Parameters
@@ -77,7 +77,7 @@ def lower_laplacian(n: int, tail: Ints, head: Ints, weights: Floats, first: int)
     rows = np.concatenate([high.astype(index), all_vertices]) - first
     columns = np.concatenate([low.astype(index), all_vertices]) - first
     values = np.concatenate([-weights, diagonal[first:]])
-    return csc_matrix((values, (rows, columns)), shape=(n - first, n - first))
+    return csr_matrix((values, (rows, columns)), shape=(n - first, n - first))
 
 
 def outflow(n: int, tail: Ints, head: Ints, weights: Floats, cochains: csr_array) -> csc_array:

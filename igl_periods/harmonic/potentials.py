@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 from scipy import sparse
-from scipy.sparse import csc_array, csc_matrix, csr_array
+from scipy.sparse import csc_array, csr_array, csr_matrix
 
 from igl_periods.arrays import Floats
 from igl_periods.complexes import DeltaComplex, edge_ends
@@ -70,7 +70,7 @@ def factored_laplacian(K: DeltaComplex, weights: Floats) -> CholeskyFactor:
     return factored(grounded_laplacian(K, weights))
 
 
-def factored(grounded: csc_matrix) -> CholeskyFactor:
+def factored(grounded: csr_matrix) -> CholeskyFactor:
     """The Cholesky factor of a grounded Laplacian.
 
     Raises

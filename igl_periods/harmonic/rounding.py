@@ -32,6 +32,7 @@ import scipy.linalg
 from igl_periods.arrays import Floats
 from igl_periods.complexes import DeltaComplex, length_sensitivity
 from igl_periods.errors import ComplexError, NotPositiveDefiniteError
+from igl_periods.machine import threads_by_size
 from igl_periods.symplectic import cholesky_factor
 
 ULP = 0.5 * float(np.finfo(np.float64).eps)
@@ -89,6 +90,7 @@ def energy_factor(D: Floats) -> Floats:
         ) from error
 
 
+@threads_by_size
 def allowance_for_loss(D: Floats, loss: Floats) -> float:
     """Relative error of D, from the sum of s_f D_f over the faces of extreme sensitivity s_f.
 
@@ -102,6 +104,7 @@ def allowance_for_loss(D: Floats, loss: Floats) -> float:
     return TRIANGLE_ERROR * (_ORDINARY + _largest_eigenvalue(whole))
 
 
+@threads_by_size
 def absolute_inverse(R: Floats) -> Floats:
     """|D⁻¹| of D = R Rᵀ, entry by entry; its lower triangle, and 0 above it, as in R."""
     lower, _ = scipy.linalg.lapack.dpotri(R, lower=1)

@@ -4,6 +4,10 @@ BLAS has one number of threads for the process.  Whoever wants it to be one hold
 (:func:`one_thread`); the number returns to what it was when the last holder lets go, however the
 calls of different threads overlap.  OpenMP has a number for each thread that asks.
 
+Threads wait for each other at the end of every product or factor, and turn round while they wait.
+Where other processes are busy, one of them waits until the other gets its turn, some milliseconds:
+ten times as long as a small product takes.  So only large ones are divided (:func:`threads_for`).
+
 A process that was forked has the books of its parent about threads of OpenMP, but not the threads:
 waiting for them would take for ever.  There the thread that was forked works alone
 (:func:`without_lost_threads`): no level of parallel regions may be active, which also holds for
@@ -16,13 +20,20 @@ from __future__ import annotations
 import os
 import threading
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sized
 from contextlib import contextmanager
-from functools import cache
-from typing import Any
+from functools import cache, wraps
+from typing import Any, Concatenate, ParamSpec, TypeVar
 
 import threadpoolctl
 from threadpoolctl import ThreadpoolController
+
+M = TypeVar("M", bound=Sized)
+P = ParamSpec("P")
+R = TypeVar("R")
+
+# Operations from which on threads gain more than they lose beside other processes: 0.1 s of one.
+_WORTH_THREADS = 1e9
 
 
 @cache
@@ -92,6 +103,33 @@ def one_thread() -> Iterator[None]:
             yield
     finally:
         _blas.release()
+
+
+@contextmanager
+def threads_for(operations: float) -> Iterator[None]:
+    """All threads that BLAS has for a large piece of linear algebra, one for a small one.
+
+    Parameters
+    ----------
+    operations : float
+        How many floating-point operations there are before all threads have to meet again.
+    """
+    if operations < _WORTH_THREADS:
+        with one_thread():
+            yield
+    else:
+        yield
+
+
+def threads_by_size(function: Callable[Concatenate[M, P], R]) -> Callable[Concatenate[M, P], R]:
+    """A function of a square matrix with :func:`threads_for` its size; a decorator."""
+
+    @wraps(function)
+    def with_threads(matrix: M, /, *args: P.args, **kwargs: P.kwargs) -> R:
+        with threads_for(2.0 * len(matrix) ** 3):
+            return function(matrix, *args, **kwargs)
+
+    return with_threads
 
 
 @contextmanager

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any, Protocol
 
-from scipy.sparse import csc_matrix
+from scipy.sparse import csr_matrix
 
 from igl_periods.arrays import Floats, Ints
 from igl_periods.complexes import MarkedComplex, insert_barycentres, intrinsic_delaunay
@@ -52,7 +52,7 @@ class Method(Protocol):
     def divided(self, where: MarkedComplex, faces: Ints) -> MarkedComplex:
         """Faces divided into three at their barycentres, then flipped."""
 
-    def problem(self, where: MarkedComplex) -> tuple[csc_matrix, Any]:
+    def problem(self, where: MarkedComplex) -> tuple[csr_matrix, Any]:
         """The grounded Laplacian, and all else that :meth:`linear` needs of the triangulation."""
 
     def linear(self, problem: Any, factor: CholeskyFactor, memory: float | None) -> PeriodMatrix:
@@ -85,7 +85,7 @@ class WithAllowance:
         """Faces divided into three at their barycentres, then flipped."""
         return where.after(partial(insert_barycentres, faces=faces)).after(intrinsic_delaunay)
 
-    def problem(self, where: MarkedComplex) -> tuple[csc_matrix, HarmonicProblem]:
+    def problem(self, where: MarkedComplex) -> tuple[csr_matrix, HarmonicProblem]:
         """The grounded Laplacian, and all else that :meth:`linear` needs of the triangulation."""
         return harmonic_problem_of_many(where.complex, where.cochains)
 

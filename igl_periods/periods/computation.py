@@ -25,7 +25,13 @@ from igl_periods.complexes import (
     extrinsic_weights,
 )
 from igl_periods.elements import high_order_forms, separate_cones
-from igl_periods.harmonic import factored, harmonic_potentials, weighted_energies
+from igl_periods.harmonic import (
+    factor_operations,
+    factored,
+    harmonic_potentials,
+    weighted_energies,
+)
+from igl_periods.machine import threads_for
 from igl_periods.options import checked_switch
 from igl_periods.run_log import stage
 from igl_periods.topology import mark
@@ -144,29 +150,30 @@ def period_matrix(
             max_memory=max_memory,
         )
         return replace(compute(rigorous=True), forms=compute(keep_forms=True).forms)
-    room = room_for_forms(K, max_memory)
-    if weights == "extrinsic":
-        return _uncertified(K, extrinsic_weights(K))
-    with stage("homology"):
-        given = mark(K)
-    method = _method(given, rigorous, keep_forms)
-    if tolerance is not None:
-        where = method.triangulation(delaunay)
-        return period_matrix_within(where, method, tolerance, max_unknowns, max_memory)
-    if degree > 1:
-        where = method.triangulation(delaunay)
-        check_high_order(where.after(separate_cones).complex, degree, given.rank, max_memory)
-        with stage(f"forms of degree {degree}"):
-            forms = high_order_forms(where.complex, where.cochains, degree)
-        return method.high_order(where, forms)
-    # Nothing keeps the flipped complex while its Laplacian is factored, nor this one afterwards:
-    # the factor takes the memory of all of them.
-    laplacian, problem = method.problem(method.triangulation(delaunay))
-    with stage("factorisation"):
-        factor = factored(laplacian)
-        del laplacian
-    with stage("harmonic forms"):
-        return method.linear(problem, factor, room)
+    with threads_for(_largest_piece(K)):
+        room = room_for_forms(K, max_memory)
+        if weights == "extrinsic":
+            return _uncertified(K, extrinsic_weights(K))
+        with stage("homology"):
+            given = mark(K)
+        method = _method(given, rigorous, keep_forms)
+        if tolerance is not None:
+            where = method.triangulation(delaunay)
+            return period_matrix_within(where, method, tolerance, max_unknowns, max_memory)
+        if degree > 1:
+            where = method.triangulation(delaunay)
+            check_high_order(where.after(separate_cones).complex, degree, given.rank, max_memory)
+            with stage(f"forms of degree {degree}"):
+                forms = high_order_forms(where.complex, where.cochains, degree)
+            return method.high_order(where, forms)
+        # Nothing keeps the flipped complex while its Laplacian is factored, nor this one
+        # afterwards: the factor takes the memory of all of them.
+        laplacian, problem = method.problem(method.triangulation(delaunay))
+        with stage("factorisation"):
+            factor = factored(laplacian)
+            del laplacian
+        with stage("harmonic forms"):
+            return method.linear(problem, factor, room)
 
 
 def period_matrix_from_weights(rho: ArrayLike, twin: ArrayLike) -> PeriodMatrix:
@@ -204,6 +211,15 @@ def period_matrix_from_weights(rho: ArrayLike, twin: ArrayLike) -> PeriodMatrix:
     """
     K = DeltaComplex.from_gluing(np.ones(np.shape(twin)), twin)
     return _uncertified(K, edge_weights(K, rho))
+
+
+def _largest_piece(K: DeltaComplex) -> float:
+    """Operations of the Cholesky factor, or of a product of dense matrices of all forms.
+
+    Either is much where threads are worth it; everything else is less.
+    """
+    n_forms = max(2 - K.euler_characteristic, 0)
+    return max(2.0 * n_forms**3, factor_operations(K.n_vertices))
 
 
 def _method(given: MarkedComplex, rigorous: bool, keep_forms: bool) -> Method:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from scipy.sparse import csc_matrix
+from scipy.sparse import csr_matrix
 
 from igl_periods.arrays import Ints
 from igl_periods.complexes import MarkedComplex
@@ -48,7 +48,7 @@ class Keeping:
 
     def problem(
         self, where: MarkedComplex
-    ) -> tuple[csc_matrix, tuple[MovedTriangulation, HarmonicProblem]]:
+    ) -> tuple[csr_matrix, tuple[MovedTriangulation, HarmonicProblem]]:
         """The grounded Laplacian, and all else that :meth:`linear` needs of the triangulation."""
         laplacian, problem = harmonic_problem(where.complex, where.cochains)
         return laplacian, (_moved(where), problem)

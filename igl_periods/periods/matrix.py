@@ -14,9 +14,8 @@ mean      average of the two                                            the pape
 matrix    of the symplectic mean G of D (:func:`igl_periods.symplectic.williamson`)
 ========  =========================  =================================  ==========================
 
-Primal and dual are not symmetric in general, and like their mean they depend on the basis.  The
-symplectic mean is symmetric and does not; it is exact wherever the symmetries of the
-discretisation determine the surface.
+Primal and dual are not symmetric in general; they and their mean depend on the basis.  The
+symplectic mean does neither, and is exact wherever symmetries determine the surface.
 
 **The certificate.**  If D is a matrix of energies of closed forms on the surface itself, then
 D ≥ D_exact by Dirichlet's principle, and since D_exact is symplectic
@@ -36,8 +35,7 @@ is a rule, and where the bound is wanted *proved* it is replaced by balls
 .. math:: D \le (1 + b)\, G(\Pi) \quad \text{in balls} \implies
           \| Y^{-1/2} (\Pi_{exact} - \Pi) Y^{-1/2} \|_2 \le b .
 
-This is about the conformal structure of the *polyhedral* surface, whose triangles have the stored
-side lengths; it says nothing about a smooth surface that a mesh samples.
+This is about the *polyhedral* surface of the stored lengths, not about a smooth one it samples.
 """
 
 from __future__ import annotations
@@ -64,6 +62,7 @@ from igl_periods.display import (
 )
 from igl_periods.errors import ComplexError, NotASiegelPointError, NotPositiveDefiniteError
 from igl_periods.harmonic import energy_factor
+from igl_periods.machine import threads_for
 from igl_periods.options import in_words
 from igl_periods.siegel import SIEGEL_GENUS_LIMIT, check_symplectic, siegel_reduce, to_flint
 from igl_periods.symplectic import (
@@ -361,12 +360,13 @@ def siegel_reduced(
     whole γ is applied to the given Dirichlet matrix, so rounding is counted once.
     """
     reduced, total = pm, np.eye(2 * pm.genus, dtype=np.int64)
-    for _ in range(_MOST_REDUCTIONS):
-        gamma = siegel_reduce(reduced.matrix, max_genus=max_genus).gamma
-        if np.array_equal(gamma, np.eye(2 * pm.genus)):
-            break
-        total = product(gamma, total)
-        reduced = pm.change_basis(total)
+    with threads_for(2.0 * len(total) ** 3):
+        for _ in range(_MOST_REDUCTIONS):
+            gamma = siegel_reduce(reduced.matrix, max_genus=max_genus).gamma
+            if np.array_equal(gamma, np.eye(2 * pm.genus)):
+                break
+            total = product(gamma, total)
+            reduced = pm.change_basis(total)
     return reduced, total
 
 

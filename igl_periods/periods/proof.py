@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csc_matrix
+from scipy.sparse import csr_matrix
 
 from igl_periods.arrays import Ints
 from igl_periods.complexes import MarkedComplex
@@ -55,7 +55,7 @@ class Proved:
         """Faces divided into three at their barycentres, then flipped."""
         return _enclosed(where).divided(faces)
 
-    def problem(self, where: MarkedComplex) -> tuple[csc_matrix, EnclosedProblem]:
+    def problem(self, where: MarkedComplex) -> tuple[csr_matrix, EnclosedProblem]:
         """The grounded Laplacian, and all else that :meth:`linear` needs of the triangulation."""
         return linear_problem(_enclosed(where))
 

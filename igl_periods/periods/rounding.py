@@ -26,6 +26,7 @@ from igl_periods.harmonic import (
     amplified,
     energy_factor,
 )
+from igl_periods.machine import threads_by_size
 
 LEAST_ALLOWANCE = 1e-13
 _POWER_STEPS = 30
@@ -62,6 +63,7 @@ def congruence(U: NDArray[np.integer], D: Floats) -> tuple[Floats, float]:
     return changed, TRIANGLE_ERROR * given + ULP * rounded
 
 
+@threads_by_size
 def algebraic_allowance(R: Floats) -> float:
     """Relative error of the symplectic mean, and of Π, that rounding after D = R Rᵀ can cause.
 

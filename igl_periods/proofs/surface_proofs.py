@@ -22,7 +22,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.sparse import csc_matrix, csr_array
+from scipy.sparse import csr_array, csr_matrix
 
 from igl_periods.arrays import Floats, Ints
 from igl_periods.complexes import MarkedComplex, delaunay_flips, insert_barycentres, transport
@@ -107,7 +107,7 @@ class EnclosedProblem:
     basis: Ints
 
 
-def linear_problem(where: EnclosedTriangulation) -> tuple[csc_matrix, EnclosedProblem]:
+def linear_problem(where: EnclosedTriangulation) -> tuple[csr_matrix, EnclosedProblem]:
     """The grounded Laplacian, and all else that is needed of a triangulation."""
     laplacian, problem = harmonic_problem(where.complex, where.cochains)
     sides = where.lengths[where.complex.edge]

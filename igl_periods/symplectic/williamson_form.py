@@ -20,6 +20,7 @@ from scipy.linalg import solve_triangular
 
 from igl_periods.arrays import Floats
 from igl_periods.errors import NotPositiveDefiniteError
+from igl_periods.machine import threads_by_size
 
 
 def williamson_basis(R: Floats) -> Floats:
@@ -53,6 +54,7 @@ def energy_matrix(Pi: NDArray[np.complex128]) -> Floats:
     return np.block([[Y + XY @ X.T, -XY], [-XY.T, inverse]])
 
 
+@threads_by_size
 def siegel_point(G: Floats) -> NDArray[np.complex128]:
     """The period matrix Π = X + iY of a symplectic Dirichlet matrix: Y = G_bb⁻¹, X = −G_ab Y.
 
@@ -92,6 +94,7 @@ def williamson(D: Floats) -> tuple[Floats, Floats]:
     return williamson_of_factor(cholesky_factor(D))
 
 
+@threads_by_size
 def williamson_of_factor(R: Floats) -> tuple[Floats, Floats]:
     """The same, as :func:`williamson`, for D = R Rᵀ with R lower triangular."""
     g = len(R) // 2
@@ -115,6 +118,7 @@ def _singular_pairs(A: Floats) -> tuple[Floats, Floats]:
     return d[::-1], Qt[::-1].T
 
 
+@threads_by_size
 def cholesky_factor(D: Floats) -> Floats:
     """The lower triangular R with D = R Rᵀ.
 

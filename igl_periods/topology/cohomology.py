@@ -76,7 +76,7 @@ def pairing(K: DeltaComplex, alpha: csr_array, beta: csr_array) -> Ints:
     """
     touched = np.zeros(K.n_edges, dtype=bool)
     touched[alpha.indices] = True
-    faces = np.flatnonzero(touched[K.edge].any(axis=1))
+    faces = np.unique(np.flatnonzero(touched[K.edge.ravel()]) // 3)
     alpha_12, alpha_01 = _along_sides(K, alpha, faces)
     beta_12, beta_01 = _along_sides(K, beta, faces)
     twice = (alpha_01.T @ beta_12 - alpha_12.T @ beta_01).toarray()

@@ -21,14 +21,16 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import breadth_first_order, dijkstra, minimum_spanning_tree
 
-from igl_periods.arrays import Floats, Ints, ReadOnlyArrays
+from igl_periods.arrays import Bools, Floats, Ints, ReadOnlyArrays
 from igl_periods.complexes import (
     DeltaComplex,
     check_connected,
     check_surface,
     checked_array,
+    ends_of_sides,
     half_edge_ends,
     index_type,
+    sorted_by_rows,
 )
 from igl_periods.display import arrays_repr
 from igl_periods.errors import ComplexError
@@ -71,47 +73,55 @@ def tree_cotree(K: DeltaComplex, root: int = 0) -> TreeCotree:
         raise ValueError(
             f"root = {root} is not a vertex: there are {K.n_vertices}, counted from 0."
         )
-    index = index_type(3 * K.n_faces)
-    half_edge = np.arange(3 * K.n_faces + 1, dtype=index)
-    tail, head = (end.astype(index) for end in half_edge_ends(K))
-    ones = np.ones(tail.size)
-    # The half-edges at each vertex, as the rows of a transpose.
-    around = csr_array((head, tail, half_edge), shape=(tail.size, K.n_vertices)).tocsc()
-    graph = csr_array((ones, around.data, around.indptr), shape=(K.n_vertices,) * 2)
-    before = _predecessors(graph, root)
-    vertex_parent = _first_per_node(np.flatnonzero(before[head] == tail), head, K.n_vertices)
+    vertex_parent = _vertex_tree(K, root)
     if np.count_nonzero(vertex_parent < 0) > 1:
         check_connected(K)
-
     in_tree = np.zeros(K.n_edges, dtype=bool)
     in_tree[K.edge.ravel()[vertex_parent[vertex_parent >= 0]]] = True
-    open_sides = ~in_tree[K.edge]
-    there = K.twin.astype(index) // 3
-    start = np.zeros(K.n_faces + 1, dtype=index)
-    np.cumsum(np.count_nonzero(open_sides, axis=1), out=start[1:])
-    across = there[open_sides]
-    dual_graph = csr_array((ones[: across.size], across, start), shape=(K.n_faces,) * 2)
-    before = _predecessors(dual_graph, 0)
-    towards_parent = np.flatnonzero(open_sides & (before[:, None] == there))
-    face_parent = _first_per_node(towards_parent, half_edge[:-1] // 3, K.n_faces)
-
+    face_parent = _face_tree(K, ~in_tree[K.edge])
     in_tree[K.edge.ravel()[face_parent[face_parent >= 0]]] = True
     generators = np.flatnonzero((K.sign.ravel() > 0) & ~in_tree[K.edge.ravel()])
     return TreeCotree(vertex_parent, face_parent, generators)
 
 
-def _predecessors(graph: csr_array, root: int) -> Ints:
+def _vertex_tree(K: DeltaComplex, root: int) -> Ints:
+    """The least half-edge to each vertex from the one before it, breadth first; -1 elsewhere."""
+    index = index_type(3 * K.n_faces)
+    tail, head = ends_of_sides(K.corner_vertex, index)
+    around = sorted_by_rows(np.arange(tail.size, dtype=index), tail, head, K.n_vertices)
+    before = _predecessors(around.indices, around.indptr, root)
+    # The half-edges back, side by side at each vertex; there are several where edges are multiple.
+    degree = np.diff(around.indptr)
+    back = np.flatnonzero(around.indices == np.repeat(before, degree))
+    towards = K.twin.ravel()[around.data[back]]
+    vertex = head[towards]
+    first = np.flatnonzero(np.diff(vertex, prepend=-1))
+    parent = np.full(K.n_vertices, -1, dtype=np.int64)
+    parent[vertex[first]] = np.minimum.reduceat(towards, first) if first.size else towards
+    return parent
+
+
+def _face_tree(K: DeltaComplex, open_sides: Bools) -> Ints:
+    """The first open side of each face towards the one before it, breadth first; -1 elsewhere."""
+    there = K.twin.astype(index_type(3 * K.n_faces)) // 3
+    start = np.zeros(K.n_faces + 1, dtype=there.dtype)
+    for s in range(3):
+        start[1:] += open_sides[:, s]
+    np.cumsum(start, out=start)
+    before = _predecessors(there[open_sides], start, 0)
+    parent = np.full(K.n_faces, -1, dtype=np.int64)
+    for s in (2, 1, 0):
+        face = np.flatnonzero(open_sides[:, s] & (there[:, s] == before))
+        parent[face] = 3 * face + s
+    return parent
+
+
+def _predecessors(neighbour: NDArray[Any], start: NDArray[Any], root: int) -> Ints:
     """The node before each one on the way from the root; neighbours are met in their order."""
+    n = start.size - 1
+    graph = csr_array((np.ones(neighbour.size), neighbour, start), shape=(n, n))
     graph.sort_indices()
     return breadth_first_order(graph, root, directed=True, return_predecessors=True)[1]
-
-
-def _first_per_node(half_edges: Ints, node: NDArray[Any], n: int) -> Ints:
-    """For each node the least of the half-edges at it, or -1."""
-    first = np.full(n, -1, dtype=np.int64)
-    descending = half_edges[::-1]
-    first[node[descending]] = descending
-    return first
 
 
 def shortest_tree_cotree(

@@ -5,9 +5,9 @@
     python scripts/measure/guide_tables.py --check
 
 Each table stands in a page of ``scripts/docs`` between two comments, ``<!-- speed -->`` and
-``<!-- /speed -->``; the others are growth, genus, digits, enclosures (from ``enclosures.json``
-beside it), and packages, which is made of the first lines of their faces.  Sections that were not
-measured stay as they are.
+``<!-- /speed -->``; the others are growth, genus, digits, enclosures and peers (from
+``enclosures.json`` and ``peers.json`` beside it), and packages, which is made of the first lines of
+their faces.  Sections that were not measured stay as they are.
 """
 
 import argparse
@@ -20,7 +20,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 GUIDE = ROOT / "scripts" / "docs"
 SOURCE = ROOT / "igl_periods"
-ENCLOSURES = ROOT / "data" / "measurements" / "enclosures.json"
+MEASUREMENTS = ROOT / "data" / "measurements"
+BESIDE = (MEASUREMENTS / "enclosures.json", MEASUREMENTS / "peers.json")
 
 
 def speed(rows):
@@ -99,6 +100,22 @@ def enclosures(rows):
         )
 
 
+def peers(rows):
+    """Tasks with who does them; the seconds, and their ratio to ours, for each size."""
+    sizes = sorted({row["faces"] for row in rows})
+    yield "task", "by", *(f"{faces:,} faces" for faces in sizes), "difference to ours"
+    for task, way in dict.fromkeys((row["task"], row["by"]) for row in rows):
+        mine = {row["faces"]: row for row in rows if (row["task"], row["by"]) == (task, way)}
+        times = [
+            f"{mine[faces]['seconds']:.2g} s ({mine[faces]['over_ours']:.2f})"
+            if faces in mine
+            else "–"
+            for faces in sizes
+        ]
+        difference = max(row["difference"] for row in mine.values())
+        yield task, way, *times, f"{difference:.0e}" if difference else "–"
+
+
 def packages():
     """The packages in reading order, and the first lines of their faces."""
     order = re.findall(
@@ -117,6 +134,7 @@ TABLES = {
     "genus": genus,
     "digits": digits,
     "enclosures": enclosures,
+    "peers": peers,
 }
 
 
@@ -138,14 +156,12 @@ def with_tables(text, tables):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument(
-        "json", type=Path, nargs="?", default=ROOT / "data" / "measurements" / "benchmark.json"
-    )
+    parser.add_argument("json", type=Path, nargs="?", default=MEASUREMENTS / "benchmark.json")
     parser.add_argument("--check", action="store_true", help="write nothing; fail on differences")
     options = parser.parse_args()
     measured = list(json.loads(options.json.read_text(encoding="utf-8")).items())
-    if ENCLOSURES.exists():
-        measured += json.loads(ENCLOSURES.read_text(encoding="utf-8")).items()
+    for path in filter(Path.exists, BESIDE):
+        measured += json.loads(path.read_text(encoding="utf-8")).items()
     tables = {name: TABLES[name](section) for name, section in measured if name in TABLES}
     tables = {name: list(rows) for name, rows in {"packages": packages(), **tables}.items()}
     missing = set(tables)

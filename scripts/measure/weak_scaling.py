@@ -9,9 +9,9 @@ them how the number of iterations grows.
     mpiexec -n 2 python scripts/measure/weak_scaling.py marching-cubes --vertices 600000
 
 Seconds are those of the processor, which others on the machine disturb less than the clock; waiting
-for another rank counts, so those of one rank are the cleanest.  Memory
-is what a process takes on top of what it had before; so it is exact for the first surface only, and
-close where each is several times as large as the one before.
+for another rank counts, so those of one rank are the cleanest.  Memory is what a process takes on
+top of what it had before: exact for the first surface only, and close where each is several
+times as large as the one before.
 """
 
 import argparse
@@ -26,13 +26,14 @@ from benchmark import delaunay_surface, marching_cubes_surface
 from mpi4py import MPI
 
 from igl_periods.distributed import period_matrix
+from igl_periods.machine import release_freed_memory
 from igl_periods.run_log import logger
 
 SURFACES = {"delaunay": delaunay_surface, "marching-cubes": marching_cubes_surface}
 TRIANGLES = 1e9
 GENUS = 2
 # What rank 0 does alone.
-INTEGERS = ("surface", "homology", "Delaunay flips", "partition")
+INTEGERS = ("surface", "homology", "partition", "scattering")
 # What is assumed: neighbours of a part, its ghosts over the root of its vertices, exchanges with
 # every neighbour on each level of an iteration, coarsening, and seconds for one message.
 NEIGHBOURS, GHOSTS, EXCHANGES, COARSENING, LATENCY = 6, 3.0, 6, 20.0, 2e-6
@@ -43,12 +44,14 @@ class Stages(logging.Handler):
 
     def __init__(self):
         super().__init__()
-        self.seconds, self.iterations, self.peak = {}, [], {}
+        self.seconds, self.iterations, self.peak, self.seam_rounds = {}, [], {}, 0
 
     def emit(self, record):
         stage = getattr(record, "stage", None)
         if getattr(record, "iterations", None) is not None:
             self.iterations.append(record.iterations)
+        elif getattr(record, "seam_round", None) is not None:
+            self.seam_rounds = record.seam_round
         elif stage and record.seconds is None:
             self.seconds[stage] = -time.process_time()
         elif stage:
@@ -72,6 +75,7 @@ def measure(comm, name, n_vertices, rtol):
     stages = Stages()
     logger.addHandler(stages)
     logger.setLevel(logging.INFO)
+    release_freed_memory()
     forget_peak()
     before = memory("VmRSS")
     pm = period_matrix(V, F, comm=comm, rtol=rtol)
@@ -92,8 +96,11 @@ def measure(comm, name, n_vertices, rtol):
         "seconds": stages.seconds,
         "iteration": solving / owned,
         "multigrid": stages.seconds["multigrid"] / owned,
+        "seam_rounds": stages.seam_rounds,
+        "flips": stages.seconds["Delaunay flips"] * comm.size / pm.complex.n_faces,
         "integers": sum(stages.seconds[stage] for stage in INTEGERS) / pm.complex.n_faces,
         "root": root / pm.complex.n_faces,
+        "root_flips": peaks[0]["Delaunay flips"] / pm.complex.n_faces,
         "other": max(peaks[-1].values()) / owned if comm.size > 1 else float("nan"),
     }
     report(result)
@@ -109,6 +116,9 @@ def report(result):
         f"  multigrid, per owned vertex            {1e6 * result['multigrid']:8.3f} µs\n"
         f"  rank 0 up to the partition, per face   {1e6 * result['integers']:8.3f} µs, "
         f"{result['root']:.0f} bytes\n"
+        f"  flips, per face of a rank              {1e6 * result['flips']:8.3f} µs, "
+        f"{result['seam_rounds']} rounds along seams, rank 0 holds "
+        f"{result['root_flips']:.0f} bytes a face of all\n"
         f"  another rank, per owned vertex         {result['other']:8.0f} bytes\n"
         + "".join(f"  {stage:<38} {s:8.3f} s\n" for stage, s in result["seconds"].items()),
         flush=True,
@@ -135,11 +145,13 @@ def model(results):
         levels = np.log(n) / np.log(COARSENING)
         latency = LATENCY * levels * (EXCHANGES * NEIGHBOURS + 3 * np.log2(N))
         work, setup = owned * last["iteration"], owned * last["multigrid"]
+        flips = last["flips"] * TRIANGLES / N
         print(
             f"  {N:>5} ranks: {owned / 1e6:5.2f} M vertices, {ghosts:5.0f} ghosts "
             f"({8e-3 * ghosts:3.0f} kB an exchange), {1e-9 * owned * last['other']:6.2f} GB; "
-            f"multigrid {setup:6.1f} s, an iteration {1e3 * work:7.1f} + {1e3 * latency:3.1f} ms, "
-            f"all {setup + 2 * GENUS * expected * (work + latency):7.1f} s"
+            f"flips {flips:6.1f} s, multigrid {setup:6.1f} s, "
+            f"an iteration {1e3 * work:7.1f} + {1e3 * latency:3.1f} ms, "
+            f"all {flips + setup + 2 * GENUS * expected * (work + latency):7.1f} s"
         )
 
 
@@ -153,6 +165,8 @@ def main():
     parser.add_argument("--json", type=Path, help="write the measurements to this file")
     options = parser.parse_args()
     comm = MPI.COMM_WORLD
+    # Libraries are loaded when they are first used: their memory is not that of a surface.
+    period_matrix(*(SURFACES["delaunay"](2_000) if comm.rank == 0 else ()), comm=comm)
     results = [measure(comm, options.surface, n, options.rtol) for n in options.vertices]
     if comm.rank > 0:
         return

@@ -15,6 +15,7 @@ from igl_periods.complexes.triangles import (
     is_strict,
     length_sensitivity,
     mollify,
+    shapes,
 )
 
 
@@ -24,6 +25,19 @@ def test_cotangents_are_those_of_libigl():
     lengths = igl.edge_lengths(V, F)
     ours, theirs = cotangents(lengths), 2.0 * igl.cotmatrix_entries(lengths)
     np.testing.assert_allclose(ours, theirs, rtol=1e-12, atol=1e-12 * np.abs(ours).max())
+
+
+@pytest.mark.parametrize("kind", [np.float64, np.longdouble])
+def test_shapes_are_what_each_function_says(kind):
+    rng = np.random.default_rng(5)
+    lengths = rng.uniform(1.0, 1.9, (500, 3)).astype(kind)
+    lengths[0] = 1.0, 1.0, 2.0
+    strict, cot, sensitivity = shapes(lengths)
+    assert not strict[0]
+    assert strict[1:].all()
+    assert np.array_equal(strict, is_strict(lengths))
+    assert np.array_equal(cot[1:], cotangents(lengths[1:]))
+    assert np.array_equal(sensitivity[1:], length_sensitivity(lengths[1:]))
 
 
 def test_right_angles_of_needles_are_exact():

@@ -54,7 +54,8 @@ def test_a_refused_mesh_ends_all_ranks_and_is_told_once(tmp_path):
     assert not done.stdout
     said = [line for line in done.stderr.splitlines() if line.startswith("igl-periods")]
     assert len(said) == 1
-    assert f"{path}: the surface is not closed: it has 3 boundary edges" in said[0]
+    assert "the surface is not closed: it has 3 boundary edges" in said[0]
+    assert f"{path}: 3 vertices" in done.stderr
 
 
 def test_a_failure_of_one_rank_alone_ends_all(torus):

@@ -7,7 +7,7 @@ from support.random_surfaces import torus_grid, torus_of_revolution
 
 import igl_periods as ip
 from igl_periods.complexes.weights import cotan_weights
-from igl_periods.distributed.partition import Partition
+from igl_periods.distributed.partition import Part, Partition
 from igl_periods.harmonic.energies import dirichlet_matrix
 from igl_periods.harmonic.laplace_matrix import laplacian
 from igl_periods.topology.cohomology import cochains_and_basis
@@ -16,7 +16,11 @@ from igl_periods.topology.cohomology import cochains_and_basis
 def divided(K, n_ranks):
     cochains, _ = cochains_and_basis(K)
     partition = Partition.of(K, cochains, n_ranks)
-    return cochains, partition, [partition.part(rank) for rank in range(n_ranks)]
+    return (
+        cochains,
+        partition,
+        [Part.of(partition.piece(rank), *partition.owned(rank)) for rank in range(n_ranks)],
+    )
 
 
 @pytest.mark.parametrize("n_ranks", [1, 2, 5, 40])

@@ -10,7 +10,12 @@ import numpy as np
 import pytest
 from threadpoolctl import ThreadpoolController
 
-from igl_periods.machine import one_thread, without_lost_threads
+from igl_periods.machine import (
+    one_thread,
+    threads_by_size,
+    threads_for,
+    without_lost_threads,
+)
 
 
 def blas_threads():
@@ -46,6 +51,32 @@ def test_overlapping_limits_end_with_the_last_one(two_threads):
     leave.set()
     thread.join()
     assert blas_threads() == before
+
+
+def test_small_pieces_of_work_get_one_thread_and_large_ones_those_that_there_are(two_threads):
+    before = blas_threads()
+    with threads_for(1e3):
+        assert max(blas_threads()) == 1
+        # What is inside of something small is small, whatever it says.
+        with threads_for(1e12):
+            assert max(blas_threads()) == 1
+    with threads_for(1e12):
+        assert blas_threads() == before
+        with threads_for(1e3):
+            assert max(blas_threads()) == 1
+        assert blas_threads() == before
+    assert blas_threads() == before
+
+
+def test_functions_of_matrices_get_threads_by_their_size(two_threads):
+    @threads_by_size
+    def threads_with(matrix, *, more):
+        return max(blas_threads()) + more
+
+    assert threads_with(np.eye(3), more=10) == 11
+    # Two thousand rows are enough; they need not be there.
+    assert threads_with(range(2_000), more=20) == 22
+    assert max(blas_threads()) == 2
 
 
 def test_limits_nest_in_one_thread_and_end_with_an_exception(two_threads):
