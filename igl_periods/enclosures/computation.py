@@ -57,7 +57,7 @@ _DIGITS_IN_FLOATS, _NEGLIGIBLE = 13, 0.2
 _MOST_PROOFS = 3
 _LOG_10 = float(np.log(10.0))
 # Triangles with a circumradius above so many shortest sides are divided.
-_RATIO, _RATIO_FOR_FEW_DIGITS = 1.6, 4.0
+_RATIO, _RATIO_FOR_FEW_DIGITS = 2.0, 4.0
 
 
 def enclose(

@@ -27,6 +27,9 @@ _SMALL_TOTAL = 1.3
 # Barycentric coordinates of new vertices are at least the first number, and multiples of 1 over the
 # second.
 _CLOSE, _FINE = 0.06, 2**12
+# New vertices, at most, for each triangle there was, and for each octave between the shortest and
+# the longest edge: sizes of triangles pass from one to the other in steps.
+_NEW_A_FACE, _NEW_AN_OCTAVE = 2, 5
 # Cells of so many triangles get a vertex at their centres.
 FEWEST = 4
 
@@ -90,7 +93,9 @@ def improve_shapes(surface: Triangulation, largest_ratio: float) -> int:
     int
         The number of new vertices.
     """
-    most = 20 + 2 * surface.n_faces
+    lengths = surface.lengths_in_floats()
+    octaves = float(np.log2(lengths.max() / lengths.min()))
+    most = 20 + int(surface.n_faces * (_NEW_A_FACE + _NEW_AN_OCTAVE * octaves))
     for inserted in range(most):
         lengths = surface.lengths_in_floats()
         angle = _angles(lengths)

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import zip_longest
+from itertools import chain, zip_longest
 
 import flint
 import numpy as np
@@ -22,11 +22,10 @@ import numpy as np
 from igl_periods.arrays import Complexes, Floats
 from igl_periods.errors import ComplexError
 
-from .exact_arithmetic import exponent_of
 from .interface_nodes import InterfaceNodes, gauss_nodes
 from .least_squares import LeastSquares
 from .limits import check_time
-from .series import PowerTables, Series, excess_bits, face_trace, star_traces
+from .series import PowerTables, Series, face_trace, largest_exponent, star_traces
 from .trial_functions import TrialFunctions
 
 Acb = flint.acb
@@ -204,13 +203,16 @@ def _residual(
     """The jumps that are left, about 10^level, with the digits that a step gains."""
     bits = int(3.33 * (_GAIN - level)) + _GUARD_BITS
     with flint.ctx.workprec(bits + series.excess_bits):
-        return _jumps(nodes, series, tables)
+        return _jumps(nodes, series, tables, int(np.rint(level / np.log10(2.0))))
 
 
 def _jumps(
-    nodes: InterfaceNodes, series: Series, tables: PowerTables
+    nodes: InterfaceNodes, series: Series, tables: PowerTables, expected: int
 ) -> tuple[int, Floats, Complexes]:
-    """The jumps that are left, divided by 2^exponent; rows as ``LeastSquares.solve`` wants them."""
+    """The jumps that are left, divided by 2^exponent; rows as ``LeastSquares.solve`` wants them.
+
+    They are about 2^expected, so that divided by that they are floats that do not underflow.
+    """
     cells, k = nodes.cells, series.n_forms
     n_nodes = nodes.n_nodes.tolist()
     defects: list[flint.arb_mat | None] = [None] * cells.n_interfaces
@@ -219,11 +221,7 @@ def _jumps(
     for i in range(cells.n_chords, cells.n_interfaces):
         other = face_trace(series.on_segment(i, 1), tables, n_nodes[i], 1)
         defects[i] = _defect(series, tables, i, n_nodes[i], other)
-    exponent = max(
-        (exponent_of(x) for defect in defects for x in defect.entries()),  # type: ignore[union-attr]
-        default=0,
-    )
-    scale = flint.arb(flint.fmpz(1)) / flint.arb(2) ** exponent
+    scale = flint.arb(2) ** -expected
     values = np.empty((nodes.n_rows, k))
     slopes = np.empty((nodes.n_rows, k), dtype=np.complex128)
     for i, defect in enumerate(defects):
@@ -232,7 +230,9 @@ def _jumps(
         for side, sign in ((0, 1.0), (1, -1.0)):
             values[nodes.rows(i, side)] = sign * table[:, :k]
             slopes[nodes.rows(i, side)] = table[:, k : 2 * k] + 1j * table[:, 2 * k :]
-    return exponent, values, slopes
+    largest = max(np.abs(values).max(initial=0.0), np.abs(slopes).max(initial=0.0))
+    unit = int(np.frexp(largest)[1])
+    return expected + unit, np.ldexp(values, -unit), slopes * 2.0**-unit
 
 
 def _defect(
@@ -282,7 +282,7 @@ class Expansion:
             check_time()
             forms = [self._expanded(cell, column) for column in a.T.tolist()]
             # Coefficients may be large and cancel each other; errors are to be small as they are.
-            with flint.ctx.workprec(self.bits + max(0, exponent + excess_bits(forms))):
+            with flint.ctx.workprec(self.bits + max(0, exponent + largest_exponent(chain(*forms)))):
                 if series is None:
                     found.append([[(c * scale).mid() for c in form] for form in forms])
                     continue

@@ -18,11 +18,16 @@ them up exponentially.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import zip_longest
 
 import flint
+import numpy as np
+
+from igl_periods.arrays import Floats
 
 from .cells import Cells
 from .exact_arithmetic import exponent_of
@@ -59,12 +64,29 @@ class Series:
 
     @cached_property
     def excess_bits(self) -> int:
-        """Bits by which coefficients are larger than the functions: they cancel each other.
+        """Bits by which terms are larger than the functions: they cancel each other.
 
         Where a vertex is closer to the origin of a cell than the farthest corner of the cell is,
-        the coefficients grow with k.  Whoever evaluates a series needs so many bits more.
+        the coefficients grow with k.  On a side of a face they become those of a polynomial of t,
+        from terms c_k (α + βt)^k as large as |c_k| (|α| + |β|)^k, and |α| + |β| may be above 1.
+        Whoever evaluates a series needs so many bits more.
         """
-        return max(0, *(excess_bits(forms) for forms in self.coefficients))
+        bits = 0.0
+        for forms, reach in zip(self.coefficients, self._reaches().tolist()):
+            sizes = [largest_exponent(column) for column in zip_longest(*forms, fillvalue=Acb(0))]
+            terms = np.array(sizes) + np.log2(reach) * np.arange(len(sizes))
+            bits = max(bits, float(terms.max()))
+        return math.ceil(bits)
+
+    def _reaches(self) -> Floats:
+        """The largest |α| + |β| on the sides of each cell; 1 for stars, whose w is at most 1."""
+        cells = self.cells
+        a, b = cells.ends[..., 0], cells.ends[..., 1]
+        reach = (0.5 * (abs(a + b) + abs(b - a)) / cells.scale[cells.cell]).ravel()
+        largest = np.ones(cells.n_cells)
+        np.maximum.at(largest, cells.cell.ravel(), reach)
+        largest[: cells.n_stars] = 1.0
+        return largest
 
     def length(self, cell: int) -> int:
         """The number K of coefficients on a cell."""
@@ -78,13 +100,30 @@ class Series:
         if side == 1:
             a, b = b, a
         size = 2 * Arb(float(cells.scale[cell]))
-        line = flint.acb_poly([(a + b) / size, (b - a) / size])
-        return [flint.acb_poly(c)(line) for c in self.coefficients[cell]]
+        return _composed(self.coefficients[cell], (a + b) / size, (b - a) / size)
 
 
-def excess_bits(forms: list[list[Acb]]) -> int:
-    """Bits of the largest coefficient before the point."""
-    parts = (x for form in forms for c in form for x in (c.real, c.imag))
+def _composed(forms: list[list[Acb]], alpha: Acb, beta: Acb) -> list[flint.acb_poly]:
+    """The polynomials Σ c_k (α + βt)^k of several forms with equally many coefficients.
+
+    Their coefficients are β^j / j! Σ_k (k! c_k) α^(k−j) / (k−j)!, for each form one product.
+    """
+    length = len(forms[0])
+    factorials = [Arb(math.factorial(k)) for k in range(length)]
+    shift = flint.acb_poly([x / f for x, f in zip(powers_of(alpha, length), factorials)])
+    scale = [x / f for x, f in zip(powers_of(beta, length), factorials)][::-1]
+    composed = []
+    for form in forms:
+        backwards = flint.acb_poly([c * f for c, f in zip(form, factorials)][::-1])
+        product = backwards * shift
+        found = [product[j] * scale[j] for j in range(length)]
+        composed.append(flint.acb_poly(found[::-1]))
+    return composed
+
+
+def largest_exponent(numbers: Iterable[Acb]) -> int:
+    """The least e with real and imaginary parts below 2^e; 0 for none."""
+    parts = (x for c in numbers for x in (c.real, c.imag))
     return max((exponent_of(x) for x in parts), default=0)
 
 

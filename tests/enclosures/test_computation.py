@@ -33,7 +33,7 @@ def surface_named(name):
         pytest.param("omega_2", 50, marks=pytest.mark.slow),
         pytest.param("omega_3", 50, marks=pytest.mark.slow),
         pytest.param("omega_1", 100, marks=pytest.mark.slow),
-        pytest.param("omega_1", 150, marks=pytest.mark.slow),
+        pytest.param("omega_1", 200, marks=pytest.mark.slow),
     ],
 )
 def test_balls_contain_exact_values(name, digits):

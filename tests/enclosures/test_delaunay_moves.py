@@ -1,10 +1,10 @@
 import flint
 import numpy as np
 import pytest
-from support.enclosed_surfaces import generic_genus_two, triangulated
+from support.enclosed_surfaces import generic_genus_two, l_shape, triangulated
 
 from igl_periods.complexes import cotangents, delaunay_flips
-from igl_periods.enclosures.delaunay_moves import fan, insert_centres, make_delaunay
+from igl_periods.enclosures.delaunay_moves import fan, improve_shapes, insert_centres, make_delaunay
 from igl_periods.surfaces import double_polygon, flat_torus, origami, regular_polygon
 
 
@@ -53,3 +53,23 @@ def test_squares_and_triangles_are_left_alone():
         surface, _ = triangulated(K)
         assert insert_centres(surface) == 0
         assert surface.n_vertices == K.n_vertices
+
+
+@pytest.mark.parametrize("thickness", [2.0**-5, 2.0**-8, 2.0**-12])
+def test_triangles_grow_step_by_step_from_the_ends_of_short_edges(thickness):
+    with flint.ctx.workprec(200):
+        surface, _ = triangulated(l_shape(1.0 + thickness))
+        make_delaunay(surface)
+        inserted = improve_shapes(surface, 2.0)
+    # A bounded number of triangles for each octave between the thickness and 1.
+    assert 0 < inserted < 12 * -np.log2(thickness)
+    lengths = surface.lengths_in_floats()
+    corners = np.array(surface.corner_vertex).reshape(-1, 3)
+    shortest = np.full(surface.n_vertices, np.inf)
+    for side in range(3):
+        for end in (1, 2):
+            np.minimum.at(shortest, corners[:, (side + end) % 3], lengths[:, side])
+    a, b, c = lengths.T
+    s = 0.5 * (a + b + c)
+    circumradius = a * b * c / (4.0 * np.sqrt(s * (s - a) * (s - b) * (s - c)))
+    assert (circumradius <= 2.0 * (1 + 1e-9) * shortest[corners].min(axis=1)).all()

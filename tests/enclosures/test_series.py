@@ -1,7 +1,7 @@
 import flint
 import numpy as np
 from flint import acb, arb
-from support.enclosed_surfaces import cut, generic_genus_two
+from support.enclosed_surfaces import cut, generic_genus_two, l_shape
 
 from igl_periods.enclosures.quadrature import gauss_balls
 from igl_periods.enclosures.series import PowerTables, Series, face_trace, powers_of, star_traces
@@ -66,3 +66,22 @@ def test_powers_do_not_blow_up():
     with flint.ctx.workprec(128):
         w = acb(arb(0.6), arb(0.8)) * acb(0, arb(1) / 3).exp()
         assert float(powers_of(w, 512)[-1].real.rad()) < 1e-32
+
+
+def test_excess_bits_make_up_for_all_that_cancels():
+    # Half-strips: on long sides |α| + |β| is above 1, and the powers of t grow like (3/2)^k.
+    K = l_shape(1.25)
+    with flint.ctx.workprec(800):
+        _, series, _ = random_series(K, length=200, bits=800)
+    assert series.excess_bits > 45
+    tables = PowerTables(lambda n: gauss_balls(n)[0])
+    counts = [4] * series.cells.n_interfaces
+    with flint.ctx.workprec(100 + series.excess_bits):
+        traces = [trace for _, trace in star_traces(series, tables, counts)]
+        traces += [
+            face_trace(series.on_segment(i, side), tables, 4, side)
+            for i in range(series.cells.n_interfaces)
+            for side in range(2)
+            if not series.cells.is_star(i, side)
+        ]
+    assert max(float(x.rad()) for trace in traces for x in trace.entries()) < 2.0**-60
