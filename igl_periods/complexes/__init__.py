@@ -37,6 +37,7 @@ barycentres, the double.  The surface stays what it is, and the classes go along
 ``cochains``              closed cochains, their values along walks and sides
 ``marked_complex``        a complex with the cochains that it carries
 ``diagonals``             the other diagonal of two triangles, and its rounding
+``flip_rounds``           rounds of flips, and cochains after them
 ``delaunay``              intrinsic Delaunay flips
 ``moved_lengths``         the same triangulation with other lengths or positions
 ``flipped_lengths``       new lengths by old ones
@@ -107,7 +108,8 @@ from .surface_checks import check_closed_and_oriented, check_connected, check_su
 from .weights import cone_angles, cotan_weights, extrinsic_weights
 from .cochains import along_sides, primitive
 from .marked_complex import MarkedComplex
-from .delaunay import Flips, cocircularity_allowance, delaunay_flips, intrinsic_delaunay, transport
+from .flip_rounds import Flips, transport
+from .delaunay import cocircularity_allowance, delaunay_flips, intrinsic_delaunay
 from .moved_lengths import edge_directions, edge_lengths, with_edge_lengths, with_positions
 from .flipped_lengths import FlipDerivative, flip_derivatives, pull_back, push_forward
 from .midpoint_subdivision import split

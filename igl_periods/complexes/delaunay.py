@@ -1,19 +1,16 @@
 r"""Intrinsic Delaunay flips that carry cochains along.
 
 An edge is Delaunay iff the angles α and β opposite it satisfy α + β ≤ π, that is
-cot α + cot β ≥ 0, that is ρ(e) ≥ 0.  If it is not, the two triangles at it form a strictly convex
-quadrilateral when unfolded, and the edge can be replaced by the other diagonal, which is Delaunay
-then.  Flipping while there is such an edge ends, with an intrinsic Delaunay triangulation of the
-same surface on the same vertices (Bobenko, Springborn 2007).  Among all triangulations of these
-vertices it has the least Dirichlet energy (Rippa 1990), hence the sharpest certificate.
+cot α + cot β ≥ 0, that is ρ(e) ≥ 0.  If it is not, the two triangles at it, unfolded, form a
+strictly convex quadrilateral, whose other diagonal is Delaunay.  Flipping ends with an intrinsic
+Delaunay triangulation of the same surface on the same vertices (Bobenko, Springborn 2007), of the
+least Dirichlet energy among all of these (Rippa 1990), hence of the sharpest certificate.
 
-The new diagonal joins two corners, so that a closed cochain takes on it the sum of its values on
-two sides of the quadrilateral.  In this way integer cochains, and with them the marking of the
-period matrix, pass exactly to the flipped triangulation, whatever multi-edges and loops it gets.
-
-The length of a new diagonal follows from those of the five edges around it, and its rounding goes
-on into all later ones.  Therefore lengths are extended numbers while edges are being flipped (of
-64 bits or more where the machine has them), and rounded at the end.
+A closed cochain takes on the new diagonal the sum of its values on two sides of the quadrilateral.
+So integer cochains, and with them the marking of the period matrix, pass exactly to the flipped
+triangulation, whatever multi-edges and loops it gets.  The length of a diagonal follows from those
+of the five edges around it, and its rounding goes on into all later ones: lengths are extended
+numbers while edges are being flipped (of 64 bits or more where the machine has them).
 
 Flips of edges that share no face commute.  Each round flips an independent set of bad edges at
 once, chosen at random but always the same.
@@ -32,7 +29,7 @@ from typing import NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_array, vstack
+from scipy.sparse import csr_array
 
 from igl_periods.arrays import Floats, Ints
 from igl_periods.errors import ComplexError
@@ -40,6 +37,7 @@ from igl_periods.run_log import progress
 
 from .delta_complex import DeltaComplex
 from .diagonals import other_diagonal
+from .flip_rounds import Flips, transport
 from .gluings import next_corner
 from .half_edges import forward_half_edges
 from .triangles import cotangents, length_sensitivity, shapes
@@ -51,35 +49,7 @@ _ULPS = 8 * _EPS
 # The rounding of extended numbers, in units of that of doubles.
 _FINER = float(np.finfo(np.longdouble).eps) / _EPS
 _MOST_ROUNDS = 100_000  # and as many as there are edges
-_COCHAINS_AT_ONCE = 32
 _EDGES_AT_ONCE = 8_192
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Flips:
-    """One round of flips: the edges flipped, and the cochain on each in terms of its sides.
-
-    ``c[edge] = first_sign c[first] + second_sign c[second]`` for every closed cochain c.  Seen
-    along the old edge from A to B, with p on its left and q on its right, the sides are
-    ``first`` A q, ``second`` p A, ``third`` B p and ``fourth`` q B.
-    """
-
-    edge: Ints
-    first: Ints
-    first_sign: NDArray[np.int8]
-    second: Ints
-    second_sign: NDArray[np.int8]
-    third: Ints
-    fourth: Ints
-
-    def __repr__(self) -> str:
-        return f"Flips({self.edge.size} edges)"
-
-    @classmethod
-    def union(cls, portions: list[Flips]) -> Flips:
-        """Flips that share no face, as one round."""
-        columns = zip(*(vars(flips).values() for flips in portions))
-        return cls(*(np.concatenate(column) for column in columns))
 
 
 def intrinsic_delaunay(K: DeltaComplex, cochains: csr_array) -> tuple[DeltaComplex, csr_array]:
@@ -157,43 +127,6 @@ def delaunay_flips(K: DeltaComplex) -> tuple[DeltaComplex, list[Flips]]:
         polygons=None,
     )
     return flipped, rounds
-
-
-def transport(cochains: csr_array, rounds: list[Flips]) -> csr_array:
-    """Values of closed cochains after the flips; (k, n_edges) sparse int."""
-    if not rounds:
-        return cochains
-    portions = [
-        _carried(cochains[start : start + _COCHAINS_AT_ONCE], rounds)
-        for start in range(0, max(cochains.shape[0], 1), _COCHAINS_AT_ONCE)
-    ]
-    return csr_array(vstack(portions, format="csr"))
-
-
-def _carried(cochains: csr_array, rounds: list[Flips]) -> csr_array:
-    """A few cochains after the flips, by a table of their values on the edges they have met."""
-    by_edge = cochains.T.tocsr()
-    met = np.flatnonzero(np.diff(by_edge.indptr))
-    # Row 0 is for all edges on which the cochains are 0.
-    values = np.zeros((met.size + 1, cochains.shape[0]), dtype=cochains.dtype)
-    values[1:] = by_edge[met].toarray()
-    row = np.zeros(cochains.shape[1], dtype=np.int64)
-    row[met] = np.arange(1, met.size + 1)
-    for flips in rounds:
-        first, second = row[flips.first], row[flips.second]
-        near = np.flatnonzero((first > 0) | (second > 0) | (row[flips.edge] > 0))
-        sums = (
-            flips.first_sign[near, None] * values[first[near]]
-            + flips.second_sign[near, None] * values[second[near]]
-        )
-        edge = flips.edge[near]
-        known = row[edge] > 0
-        values[row[edge[known]]] = sums[known]
-        row[edge[~known]] = np.arange(len(values), len(values) + np.count_nonzero(~known))
-        values = np.concatenate([values, sums[~known]])
-    met = np.flatnonzero(row)
-    found = csr_array(values[row[met]].T).tocoo()
-    return csr_array((found.data, (found.row, met[found.col])), shape=cochains.shape)
 
 
 class _Quadrilaterals(NamedTuple):

@@ -47,8 +47,8 @@ from igl_periods.arrays import Floats, Ints
 from igl_periods.display import arrays_repr
 
 from .barycentre_insertion import Barycentres, barycentre_distances
-from .delaunay import Flips
 from .delta_complex import DeltaComplex
+from .flip_rounds import Flips
 from .moved_lengths import edge_lengths
 from .triangles import apexes, double_areas
 
