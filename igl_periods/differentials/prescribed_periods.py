@@ -43,8 +43,8 @@ def form_of_periods(pm: PeriodMatrix, periods: ArrayLike) -> Complexes:
     >>> import igl_periods as ip
     >>> V, F = ip.surfaces.torus_of_revolution(2.0, 1.0, 12, 8)
     >>> pm = ip.period_matrix(V, F)
-    >>> ip.form_of_periods(pm, [2, 2 * pm.matrix[0, 0]]).round(9)
-    array([2.+0.j])
+    >>> bool(abs(ip.form_of_periods(pm, [2, 2 * pm.matrix[0, 0]])[0] - 2.0) < 1e-12)
+    True
     """
     wanted = _checked_periods(pm, np.asarray(periods, dtype=np.complex128))
     given = ~np.isnan(wanted)
