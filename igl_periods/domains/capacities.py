@@ -92,7 +92,9 @@ class CapacityMatrix:
     @cached_property
     def matrix(self) -> Floats:
         """The capacity matrix C of the symplectic mean, between both bounds; (n, n)."""
-        return self._full(2.0 * self._in_classes(energy_matrix(self.period_matrix.matrix))[0])
+        return self._full(
+            2.0 * _in_classes(self._grounded_classes, energy_matrix(self.period_matrix.matrix))[0]
+        )
 
     @property
     def grounded(self) -> Floats:
@@ -156,18 +158,11 @@ class CapacityMatrix:
 
     @cached_property
     def _grounded_bounds(self) -> Bounds:
-        pm = self.period_matrix
-        g, D = pm.genus, pm.dirichlet
-        J = standard_form(g)
-        upper, loss = self._in_classes(D)
-        lower, other_loss = self._in_classes(J @ np.linalg.inv(D) @ J.T)
-        allowance = combined(pm.rounding_allowance, max(loss, other_loss))
-        return Bounds(2.0 * lower / (1.0 + allowance), 2.0 * upper * (1.0 + allowance))
+        return energy_bounds(self.period_matrix, self._grounded_classes, 2.0)
 
-    def _in_classes(self, D: Floats) -> tuple[Floats, float]:
-        if len(self.coefficients) == 1:
-            return np.zeros((0, 0)), 0.0
-        return congruence(self.coefficients[1:], np.asarray(0.5 * (D + D.T)))
+    @property
+    def _grounded_classes(self) -> Ints:
+        return self.coefficients[1:]
 
     def _full(self, grounded: Floats) -> Floats:
         """With the row and column of C_1, which make the sums 0."""
@@ -256,6 +251,29 @@ def capacity_matrix(
     else:
         pm = period_matrix(L, degree=degree)
     return CapacityMatrix(pm, coordinates(pm, classes), loops, K)
+
+
+def energy_bounds(pm: PeriodMatrix, classes: Ints, factor: float = 1.0) -> Bounds:
+    """Lower and upper bounds of energies of classes, in the Loewner order.
+
+    Parameters
+    ----------
+    pm : PeriodMatrix
+        With a certificate.
+    classes : (k, 2g) int
+    factor : float
+    """
+    D, J = pm.dirichlet, standard_form(pm.genus)
+    upper, loss = _in_classes(classes, D)
+    lower, other_loss = _in_classes(classes, J @ np.linalg.inv(D) @ J.T)
+    allowance = combined(pm.rounding_allowance, max(loss, other_loss))
+    return Bounds(factor * lower / (1.0 + allowance), factor * upper * (1.0 + allowance))
+
+
+def _in_classes(classes: Ints, D: Floats) -> tuple[Floats, float]:
+    if len(classes) == 0:
+        return np.zeros((0, 0)), 0.0
+    return congruence(classes, np.asarray(0.5 * (D + D.T)))
 
 
 def coordinates(pm: PeriodMatrix, classes: csr_array) -> Ints:

@@ -44,11 +44,11 @@ from igl_periods.complexes import (
     of_a_surface,
 )
 from igl_periods.errors import ComplexError
-from igl_periods.periods import PeriodMatrix, combined, congruence, period_matrix
+from igl_periods.periods import PeriodMatrix, period_matrix
 from igl_periods.symplectic import energy_matrix, standard_form
 
 from .boundary_classes import BoundaryLoop, boundary_loops, check_oriented
-from .capacities import Bounds, coordinates
+from .capacities import Bounds, coordinates, energy_bounds
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -110,24 +110,6 @@ class EnergyBlocks:
             f"EnergyBlocks of genus {(G + 1 - len(self.loops)) // 2} with {len(self.loops)} loops, "
             f"two of {G} x {G}"
         )
-
-
-def energy_bounds(pm: PeriodMatrix, classes: Ints, factor: float = 1.0) -> Bounds:
-    """Lower and upper bounds of energies of classes, in the Loewner order.
-
-    Parameters
-    ----------
-    pm : PeriodMatrix
-        With a certificate.
-    classes : (k, 2g) int
-    factor : float
-    """
-    D, J = pm.dirichlet, standard_form(pm.genus)
-    upper, loss = congruence(classes, np.asarray(0.5 * (D + D.T)))
-    other = J @ np.linalg.inv(D) @ J.T
-    lower, other_loss = congruence(classes, np.asarray(0.5 * (other + other.T)))
-    allowance = combined(pm.rounding_allowance, max(loss, other_loss))
-    return Bounds(factor * lower / (1.0 + allowance), factor * upper * (1.0 + allowance))
 
 
 @of_a_surface

@@ -51,8 +51,7 @@ from igl_periods.periods import PeriodMatrix, period_matrix
 from igl_periods.symplectic import energy_matrix
 
 from .boundary_classes import BoundaryLoop, boundary_loops, doubled_with_classes
-from .capacities import Bounds, coordinates
-from .conjugate_blocks import energy_bounds
+from .capacities import Bounds, coordinates, energy_bounds
 
 
 @dataclass(frozen=True, eq=False, repr=False)
